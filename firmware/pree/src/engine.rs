@@ -1,0 +1,209 @@
+//! The engine (PREE Fig. 5, solid box); in: jobs and photons, out: memory changed, a state, counters; cost: see the passes.
+
+use lucerna_softfloat::Format;
+
+use crate::counters::Counters;
+use crate::evaluate::EvaluatePass;
+use crate::job::{EvaluateJob, Fault, FaultCode, UpdateJob};
+use crate::update::{Progress, UpdatePass};
+
+/// What the engine is doing.
+#[derive(Clone, Debug, Default)]
+#[expect(clippy::large_enum_variant, reason = "there is no heap, and one of the two is nearly always at work")]
+enum State<F, const N: usize> {
+    #[default]
+    Idle,
+    Update(UpdatePass<F, N>),
+    Evaluate(EvaluatePass<F, N>),
+    Fault(Fault),
+}
+
+/// The state as the status register shows it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Status {
+    /// No job.
+    Idle,
+    /// A job runs.
+    Running {
+        /// The clock is gated for want of photons.
+        starved: bool,
+        /// Flush was asked for.
+        flushing: bool,
+    },
+    /// The last job ended in a fault.
+    Fault(Fault),
+}
+
+/// What happened in a tick, for the interrupt register.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Event {
+    /// The job is done and its results are in memory.
+    Done,
+    /// The job was stopped by a fault.
+    Fault(Fault),
+}
+
+/// An engine with `N` PREUs of format `F`.
+#[derive(Clone, Debug, Default)]
+pub struct Pree<F, const N: usize> {
+    state: State<F, N>,
+    counters: Counters,
+    starved: bool,
+}
+
+impl<F: Format, const N: usize> Pree<F, N> {
+    /// An idle engine.
+    pub const fn new() -> Self {
+        const {
+            assert!(N.is_power_of_two() && N >= 4 && N <= 16, "the paper's controllers are drawn for 4, 8 and 16 PREUs");
+        }
+        let counters = Counters {
+            photons: 0,
+            empty_cells: 0,
+            operations: 0,
+            updates: 0,
+            update_cycles: 0,
+            evaluations: 0,
+            evaluate_cycles: 0,
+            total_cycles: 0,
+            stall_cycles: 0,
+            starved_cycles: 0,
+            partial_dispatches: 0,
+            update_conflicts: 0,
+            stale_updates: 0,
+            pixel_conflicts: 0,
+            forwards: 0,
+        };
+        Self { state: State::Idle, counters, starved: false }
+    }
+
+    /// Starts an update.
+    ///
+    /// # Errors
+    /// [`FaultCode::NotIdle`] while a job runs, which goes on.
+    pub fn update(&mut self, job: UpdateJob<F>) -> Result<(), Fault> {
+        self.start(|| State::Update(UpdatePass::new(job)))
+    }
+
+    /// Starts an evaluation.
+    ///
+    /// # Errors
+    /// [`FaultCode::NotIdle`] while a job runs, which goes on.
+    pub fn evaluate(&mut self, job: EvaluateJob<F>) -> Result<(), Fault> {
+        self.start(|| State::Evaluate(EvaluatePass::new(job)))
+    }
+
+    fn start(&mut self, state: impl FnOnce() -> State<F, N>) -> Result<(), Fault> {
+        if self.is_running() {
+            return Err(Fault { code: FaultCode::NotIdle, address: 0 });
+        }
+        self.starved = false;
+        self.state = state();
+        Ok(())
+    }
+
+    /// Ends whatever runs, at once: results in flight are dropped. A fault is cleared.
+    pub fn abort(&mut self) {
+        self.state = State::Idle;
+        self.starved = false;
+    }
+
+    /// A job was refused before it began.
+    pub fn refuse(&mut self, fault: Fault) {
+        self.state = State::Fault(fault);
+    }
+
+    /// The doorbell: records up to the free-running count `tail` are in the ring. Without an update job it has no effect.
+    ///
+    /// # Errors
+    /// [`FaultCode::RingOverrun`]; the job is over.
+    pub fn doorbell(&mut self, tail: u32) -> Result<(), Fault> {
+        let State::Update(pass) = &mut self.state else { return Ok(()) };
+        pass.feed().ring(tail).inspect_err(|fault| self.state = State::Fault(*fault))
+    }
+
+    /// No photon will come behind those in the ring (D2).
+    pub fn flush(&mut self) {
+        if let State::Update(pass) = &mut self.state {
+            pass.feed().flush();
+        }
+    }
+
+    /// Photons taken from the ring and still in it, as (head, waiting).
+    pub fn ring(&self) -> (u32, u32) {
+        match &self.state {
+            State::Update(pass) => (pass.feed.head(), pass.feed.waiting()),
+            _ => (0, 0),
+        }
+    }
+
+    /// Whether a job runs.
+    pub const fn is_running(&self) -> bool {
+        matches!(self.state, State::Update(_) | State::Evaluate(_))
+    }
+
+    /// What the status register shows.
+    pub fn status(&self) -> Status {
+        match &self.state {
+            State::Idle => Status::Idle,
+            State::Update(pass) => {
+                Status::Running { starved: self.starved, flushing: pass.feed.is_flushing() }
+            }
+            State::Evaluate(_) => Status::Running { starved: false, flushing: false },
+            State::Fault(fault) => Status::Fault(*fault),
+        }
+    }
+
+    /// What was counted.
+    pub const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Sets all counters to zero.
+    pub fn clear_counters(&mut self) {
+        self.counters = Counters::default();
+    }
+
+    /// One clock.
+    pub fn tick(&mut self, memory: &mut [u32]) -> Option<Event> {
+        let progress = match &mut self.state {
+            State::Update(pass) => pass.tick(memory, &mut self.counters),
+            State::Evaluate(pass) => pass.tick(memory, &mut self.counters),
+            State::Idle | State::Fault(_) => return None,
+        };
+        self.settle(progress)
+    }
+
+    /// The same state after `cycles` ticks, or fewer when a job ends before: says how many, and how it ended.
+    pub fn advance(&mut self, memory: &mut [u32], cycles: u64) -> (u64, Option<Event>) {
+        let (used, progress) = match &mut self.state {
+            State::Update(pass) => pass.advance(memory, &mut self.counters, cycles),
+            State::Evaluate(pass) => {
+                let mut used = 0;
+                let mut progress = Ok(Progress::Running);
+                while used < cycles && progress == Ok(Progress::Running) {
+                    progress = pass.tick(memory, &mut self.counters);
+                    used += 1;
+                }
+                (used, progress)
+            }
+            State::Idle | State::Fault(_) => return (cycles, None),
+        };
+        (used, self.settle(progress))
+    }
+
+    fn settle(&mut self, progress: Result<Progress, Fault>) -> Option<Event> {
+        self.starved = progress == Ok(Progress::Starved);
+        match progress {
+            Ok(Progress::Running | Progress::Starved) => None,
+            Ok(Progress::Done) => {
+                self.state = State::Idle;
+                Some(Event::Done)
+            }
+            Err(fault) => {
+                self.state = State::Fault(fault);
+                Some(Event::Fault(fault))
+            }
+        }
+    }
+}
