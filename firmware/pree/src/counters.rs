@@ -34,3 +34,24 @@ pub struct Counters {
     /// Operands taken from a result in flight (`Forward` only).
     pub forwards: u64,
 }
+
+impl Counters {
+    /// All at zero.
+    pub const ZERO: Self = Self {
+        photons: 0,
+        empty_cells: 0,
+        operations: 0,
+        updates: 0,
+        update_cycles: 0,
+        evaluations: 0,
+        evaluate_cycles: 0,
+        total_cycles: 0,
+        stall_cycles: 0,
+        starved_cycles: 0,
+        partial_dispatches: 0,
+        update_conflicts: 0,
+        stale_updates: 0,
+        pixel_conflicts: 0,
+        forwards: 0,
+    };
+}

@@ -43,12 +43,28 @@ pub enum Event {
     Fault(Fault),
 }
 
+/// How far the photon ring was read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Ring {
+    /// Records taken from it, a free-running count.
+    pub head: u32,
+    /// Records still in it.
+    pub waiting: u32,
+}
+
+impl Ring {
+    fn of<F: Format, const N: usize>(pass: &UpdatePass<F, N>) -> Self {
+        Self { head: pass.feed.head(), waiting: pass.feed.waiting() }
+    }
+}
+
 /// An engine with `N` PREUs of format `F`.
 #[derive(Clone, Debug, Default)]
 pub struct Pree<F, const N: usize> {
     state: State<F, N>,
     counters: Counters,
     starved: bool,
+    ring: Ring,
 }
 
 impl<F: Format, const N: usize> Pree<F, N> {
@@ -57,24 +73,7 @@ impl<F: Format, const N: usize> Pree<F, N> {
         const {
             assert!(N.is_power_of_two() && N >= 4 && N <= 16, "the paper's controllers are drawn for 4, 8 and 16 PREUs");
         }
-        let counters = Counters {
-            photons: 0,
-            empty_cells: 0,
-            operations: 0,
-            updates: 0,
-            update_cycles: 0,
-            evaluations: 0,
-            evaluate_cycles: 0,
-            total_cycles: 0,
-            stall_cycles: 0,
-            starved_cycles: 0,
-            partial_dispatches: 0,
-            update_conflicts: 0,
-            stale_updates: 0,
-            pixel_conflicts: 0,
-            forwards: 0,
-        };
-        Self { state: State::Idle, counters, starved: false }
+        Self { state: State::Idle, counters: Counters::ZERO, starved: false, ring: Ring { head: 0, waiting: 0 } }
     }
 
     /// Starts an update.
@@ -98,6 +97,7 @@ impl<F: Format, const N: usize> Pree<F, N> {
             return Err(Fault { code: FaultCode::NotIdle, address: 0 });
         }
         self.starved = false;
+        self.ring = Ring::default();
         self.state = state();
         Ok(())
     }
@@ -108,9 +108,11 @@ impl<F: Format, const N: usize> Pree<F, N> {
         self.starved = false;
     }
 
-    /// A job was refused before it began.
+    /// A job was refused before it began. A running job goes on.
     pub fn refuse(&mut self, fault: Fault) {
-        self.state = State::Fault(fault);
+        if !self.is_running() {
+            self.state = State::Fault(fault);
+        }
     }
 
     /// The doorbell: records up to the free-running count `tail` are in the ring. Without an update job it has no effect.
@@ -119,7 +121,9 @@ impl<F: Format, const N: usize> Pree<F, N> {
     /// [`FaultCode::RingOverrun`]; the job is over.
     pub fn doorbell(&mut self, tail: u32) -> Result<(), Fault> {
         let State::Update(pass) = &mut self.state else { return Ok(()) };
-        pass.feed().ring(tail).inspect_err(|fault| self.state = State::Fault(*fault))
+        let rung = pass.feed().ring(tail);
+        self.ring = Ring::of(pass);
+        rung.inspect_err(|fault| self.state = State::Fault(*fault))
     }
 
     /// No photon will come behind those in the ring (D2).
@@ -129,11 +133,11 @@ impl<F: Format, const N: usize> Pree<F, N> {
         }
     }
 
-    /// Photons taken from the ring and still in it, as (head, waiting).
-    pub fn ring(&self) -> (u32, u32) {
+    /// The photon ring of the update that runs, or ran last.
+    pub fn ring(&self) -> Ring {
         match &self.state {
-            State::Update(pass) => (pass.feed.head(), pass.feed.waiting()),
-            _ => (0, 0),
+            State::Update(pass) => Ring::of(pass),
+            State::Idle | State::Evaluate(_) | State::Fault(_) => self.ring,
         }
     }
 
@@ -193,6 +197,7 @@ impl<F: Format, const N: usize> Pree<F, N> {
     }
 
     fn settle(&mut self, progress: Result<Progress, Fault>) -> Option<Event> {
+        self.ring = self.ring();
         self.starved = progress == Ok(Progress::Starved);
         match progress {
             Ok(Progress::Running | Progress::Starved) => None,
