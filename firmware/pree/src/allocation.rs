@@ -1,8 +1,8 @@
 //! Which hit points are evaluated in a cycle; in: their number, out: at most one address a PREU and cycle; cost: one adder and
 //! one comparator a PREU.
 //!
-//! [`Allocation::Leaping`] is ADISO-REC (PREE §IV.C, Figs. 9 and 10); [`Allocation::Sequential`] hands out adjacent addresses
-//! and is what Fig. 4 shows the damage of.
+//! [`Allocation::Leaping`] is ADISO-REC (PREE §IV.C, Figs. 9 and 10); [`Allocation::Sequential`] is each PREU walking its group
+//! address by address (Fig. 3), and Fig. 4 shows the damage of it.
 
 use crate::preu::components::EVALUATE_STAGES;
 
@@ -12,7 +12,7 @@ pub enum Allocation {
     /// ADISO-REC: each PREU leaps through a group of its own.
     #[default]
     Leaping,
-    /// Each PREU takes the next address: neighbours, often of one pixel, meet in the pipelines.
+    /// Each PREU walks its group address by address: neighbours, often of one pixel, meet in the pipeline.
     Sequential,
 }
 
@@ -34,22 +34,11 @@ struct Share {
 pub struct Addresses<const N: usize> {
     shares: [Share; N],
     leap: u32,
-    /// How many rows a group has: as many as a leap is wide.
-    rows: u32,
 }
 
 impl<const N: usize> Addresses<N> {
-    /// All of `0..hits`.
+    /// All of `0..hits`: the groups of Fig. 10 (D10), walked with the leap of eq. (10), at least 1, or address by address.
     pub fn new(allocation: Allocation, hits: u32) -> Self {
-        match allocation {
-            Allocation::Leaping => Self::leaping(hits),
-            Allocation::Sequential => Self::sequential(hits),
-        }
-    }
-
-    /// Eq. (10), at least 1, and the group ends of Fig. 10 (D10).
-    fn leaping(hits: u32) -> Self {
-        let groups = const { (N * EVALUATE_STAGES).next_power_of_two().ilog2() };
         let mut first = 0;
         let shares = core::array::from_fn(|group| {
             let end = group_end::<N>(hits, group);
@@ -57,17 +46,11 @@ impl<const N: usize> Addresses<N> {
             first = end;
             share
         });
-        let leap = (hits >> groups).max(1);
-        Self { shares, leap, rows: leap }
-    }
-
-    /// PREU `i` takes `i`, `i + N`, `i + 2N` …: the same registers with a leap of `N` and one row.
-    fn sequential(hits: u32) -> Self {
-        let shares = core::array::from_fn(|preu| {
-            let address = preu as u32;
-            Share { first: address, start: address, address, end: hits }
-        });
-        Self { shares, leap: N as u32, rows: 1 }
+        let leap = match allocation {
+            Allocation::Leaping => hits >> const { (N * EVALUATE_STAGES).next_power_of_two().ilog2() },
+            Allocation::Sequential => 1,
+        };
+        Self { shares, leap: leap.max(1) }
     }
 
     /// How far one address is from the one before, eq. (10).
@@ -78,16 +61,16 @@ impl<const N: usize> Addresses<N> {
     /// This cycle's address for each PREU; all `None` when the evaluation is done.
     #[inline]
     pub fn step(&mut self) -> [Option<u32>; N] {
-        let (leap, rows) = (self.leap, self.rows);
-        self.shares.each_mut().map(|share| share.next(leap, rows))
+        let leap = self.leap;
+        self.shares.each_mut().map(|share| share.next(leap))
     }
 }
 
 impl Share {
-    /// Eqs. (12) and (13): leap on, or begin the next row when that would leave the group; done after `rows` rows.
+    /// Eqs. (12) and (13): leap on, or begin the next row when that would leave the group; a leap is as many rows wide.
     #[inline]
-    fn next(&mut self, leap: u32, rows: u32) -> Option<u32> {
-        if self.start - self.first >= rows || self.start >= self.end {
+    fn next(&mut self, leap: u32) -> Option<u32> {
+        if self.start - self.first >= leap || self.start >= self.end {
             return None;
         }
         let address = self.address;
