@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-/// Keys that share their low bits share one count of the filter.
+/// Keys that share their low bits share one place of the filter.
 const FILTER: usize = 1024;
 
 /// What is issued to `LANES` pipelines of `STAGES` stages, cycle by cycle.
@@ -13,10 +13,13 @@ const FILTER: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct InFlight<R, const STAGES: usize, const LANES: usize> {
     stages: [Stage<R, LANES>; STAGES],
-    now: usize,
+    /// The stage that is issued to in this cycle.
+    first: usize,
     held: usize,
-    /// How many keys in flight have these low bits: zero proves absence without looking at the stages.
-    filter: [u8; FILTER],
+    /// This cycle's number, counting round.
+    now: u32,
+    /// When a key with these low bits was issued last: long ago proves absence without looking at the stages.
+    issued: [u32; FILTER],
 }
 
 #[derive(Clone, Debug)]
@@ -32,20 +35,23 @@ impl<R, const LANES: usize> Stage<R, LANES> {
 impl<R: Copy, const STAGES: usize, const LANES: usize> InFlight<R, STAGES, LANES> {
     /// An empty pipeline.
     pub const fn new() -> Self {
-        const { assert!(STAGES * LANES <= u8::MAX as usize, "the filter counts in bytes") };
-        Self { stages: [const { Stage::EMPTY }; STAGES], now: 0, held: 0, filter: [0; FILTER] }
+        Self {
+            stages: [const { Stage::EMPTY }; STAGES],
+            first: 0,
+            held: 0,
+            now: STAGES as u32,
+            issued: [0; FILTER],
+        }
     }
 
     /// One clock: every operation moves on a stage, and `leave` is called, in order of issue, with the results of those that
     /// were issued `STAGES` cycles ago.
     #[inline]
     pub fn clock(&mut self, mut leave: impl FnMut(u32, R)) {
-        self.now = if self.now + 1 == STAGES { 0 } else { self.now + 1 };
-        let leaving = &mut self.stages[self.now];
+        self.now = self.now.wrapping_add(1);
+        self.first = if self.first + 1 == STAGES { 0 } else { self.first + 1 };
+        let leaving = &mut self.stages[self.first];
         self.held -= leaving.keys.len();
-        for key in &leaving.keys {
-            self.filter[*key as usize % FILTER] -= 1;
-        }
         for (key, result) in &leaving.results {
             leave(*key, *result);
         }
@@ -56,14 +62,14 @@ impl<R: Copy, const STAGES: usize, const LANES: usize> InFlight<R, STAGES, LANES
     /// Puts one operation into this cycle's first stage. Gives the key back when every lane is taken.
     #[inline]
     pub fn issue(&mut self, key: u32, result: Option<R>) -> Result<(), u32> {
-        let stage = &mut self.stages[self.now];
+        let stage = &mut self.stages[self.first];
         stage.keys.push(key)?;
         if let Some(result) = result {
             // As many lanes as keys: this one has room because that one had.
             let _ = stage.results.push((key, result));
         }
         self.held += 1;
-        self.filter[key as usize % FILTER] += 1;
+        self.issued[key as usize % FILTER] = self.now;
         Ok(())
     }
 
@@ -82,7 +88,7 @@ impl<R: Copy, const STAGES: usize, const LANES: usize> InFlight<R, STAGES, LANES
     /// ```
     #[inline]
     pub fn age(&self, key: u32) -> Option<usize> {
-        if self.filter[key as usize % FILTER] == 0 {
+        if self.is_absent(key) {
             return None;
         }
         self.scan(|stage| stage.keys.contains(&key).then_some(())).map(|(age, ())| age)
@@ -91,10 +97,16 @@ impl<R: Copy, const STAGES: usize, const LANES: usize> InFlight<R, STAGES, LANES
     /// The youngest result in flight for this key, with its age.
     #[inline]
     pub fn result(&self, key: u32) -> Option<(usize, R)> {
-        if self.filter[key as usize % FILTER] == 0 {
+        if self.is_absent(key) {
             return None;
         }
         self.scan(|stage| stage.results.iter().rev().find(|(k, _)| *k == key).map(|(_, result)| *result))
+    }
+
+    /// Whether this key is surely not in flight; `false` says nothing.
+    #[inline]
+    pub const fn is_absent(&self, key: u32) -> bool {
+        self.now.wrapping_sub(self.issued[key as usize % FILTER]) >= STAGES as u32
     }
 
     /// Whether nothing is in flight.
@@ -105,7 +117,7 @@ impl<R: Copy, const STAGES: usize, const LANES: usize> InFlight<R, STAGES, LANES
 
     fn scan<T>(&self, find: impl Fn(&Stage<R, LANES>) -> Option<T>) -> Option<(usize, T)> {
         (0..STAGES).find_map(|age| {
-            let stage = (self.now + STAGES - age) % STAGES;
+            let stage = (self.first + STAGES - age) % STAGES;
             find(&self.stages[stage]).map(|found| (age, found))
         })
     }

@@ -88,6 +88,17 @@ impl Buffer {
         memory.get_mut(first..)?.first_chunk_mut()
     }
 
+    /// All records, when they are `W` words each; else none.
+    #[inline]
+    pub fn records<'m, const W: usize>(&self, memory: &'m [u32]) -> &'m [[u32; W]] {
+        let words = self.count as usize * self.stride as usize;
+        let first = self.first as usize;
+        match memory.get(first..first + words) {
+            Some(words) if W == self.stride as usize => words.as_chunks().0,
+            _ => &[],
+        }
+    }
+
     #[inline]
     fn word(&self, record: u32, offset: u32, words: usize) -> Option<usize> {
         (record < self.count && offset as usize + words <= self.stride as usize)

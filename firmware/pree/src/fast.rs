@@ -1,13 +1,22 @@
-//! The same as `tick`, sooner; in: a number of cycles, out: the state after them; cost: a loop without bubbles.
+//! The same as `tick`, sooner; in: a number of cycles, out: the state after that many ticks; cost: a fraction of theirs.
+//!
+//! Two shortcuts, both exact. Cycles are *regular* while the front list is longer than the PREUs are many and the buffer is
+//! full: nothing is loaded, and the whole group comes from the front list. And an operation whose hit point is surely not in
+//! flight needs no judgement, so that a group of such operations is computed in one sweep. Whatever is neither is ticked.
 
 use lucerna_softfloat::Format;
 
 use crate::counters::Counters;
 use crate::job::Fault;
+use crate::preu;
+use crate::record::{Accumulated, HIT_WORDS, INDEX_WORDS};
+use crate::schedule::{Group, Plan};
 use crate::update::{Progress, UpdatePass};
 
+const HIT: usize = HIT_WORDS as usize;
+
 impl<F: Format, const N: usize> UpdatePass<F, N> {
-    /// Up to `cycles` ticks; says how many it took.
+    /// Up to `cycles` ticks, fewer when the job ends; says how many. All cycles left when photons are wanted are starved.
     pub fn advance(
         &mut self,
         memory: &mut [u32],
@@ -15,11 +24,92 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
         cycles: u64,
     ) -> (u64, Result<Progress, Fault>) {
         let mut used = 0;
-        let mut progress = Ok(Progress::Running);
-        while used < cycles && progress == Ok(Progress::Running) {
-            progress = self.tick(memory, counters);
-            used += 1;
+        while used < cycles {
+            let progress = match self.regular_dispatches() {
+                0 => {
+                    used += 1;
+                    self.clock(memory, counters, Self::sweep)
+                }
+                dispatches => self.regular(memory, counters, dispatches, cycles, &mut used),
+            };
+            match progress {
+                Ok(Progress::Running) => {}
+                Ok(Progress::Starved) => {
+                    counters.starved_cycles += cycles - used;
+                    return (cycles, progress);
+                }
+                Ok(Progress::Done) | Err(_) => return (used, progress),
+            }
         }
-        (used, progress)
+        (used, Ok(Progress::Running))
+    }
+
+    /// How many dispatches from now on are regular.
+    fn regular_dispatches(&self) -> u32 {
+        match self.buffer.first() {
+            Some(front) if self.fill == 0 && self.buffer.is_full() => front.n.saturating_sub(1) / N as u32,
+            _ => 0,
+        }
+    }
+
+    /// Cycles until `dispatches` regular ones were made, or `used` reaches `cycles`.
+    fn regular(
+        &mut self,
+        memory: &mut [u32],
+        counters: &mut Counters,
+        mut dispatches: u32,
+        cycles: u64,
+        used: &mut u64,
+    ) -> Result<Progress, Fault> {
+        // As in the first of these ticks; in the others there is no room for more.
+        self.feed.fetch(memory, counters).inspect_err(|_| *used += 1)?;
+        let hits = self.job.hits;
+        while dispatches > 0 && *used < cycles {
+            *used += 1;
+            counters.total_cycles += 1;
+            counters.update_cycles += 1;
+            self.pipe.clock(|hit, result: Accumulated<F>| result.write(memory, &hits, hit));
+            if self.issuing.is_none() {
+                let group = Group::take(&mut self.buffer, Plan::Dispatch { whole: 0, part: N as u32 });
+                self.issuing = self.operands.shift(group);
+                dispatches -= 1;
+            }
+            self.sweep(memory, counters)?;
+        }
+        Ok(Progress::Running)
+    }
+
+    /// Issues the group at the head as [`issue`](Self::issue) does, but without a judgement where none is needed.
+    #[inline]
+    fn sweep(&mut self, memory: &[u32], counters: &mut Counters) -> Result<(), Fault> {
+        let Some(group) = &mut self.issuing else { return Ok(()) };
+        if self.held {
+            return self.issue(memory, counters);
+        }
+        let hits = self.job.hits.records::<HIT>(memory);
+        let index = self.job.index.records::<{ INDEX_WORDS as usize }>(memory);
+        let normal_test = self.job.rules.normal_test;
+        while let Some((tag, entry)) = group.first() {
+            let record = index.get(entry as usize).and_then(|[hit]| Some((*hit, hits.get(*hit as usize)?)));
+            let Some((hit, words)) = record.filter(|(hit, _)| self.pipe.is_absent(*hit)) else {
+                return self.issue(memory, counters);
+            };
+            let photon = &self.photons[usize::from(tag)];
+            let number = |word: usize| F::from_bits(words[word]);
+            let vector = |word: usize| [number(word), number(word + 1), number(word + 2)];
+            let counts = preu::within(&vector(0), number(12), &photon.position)
+                && (!normal_test || preu::faces(&vector(3), &photon.normal, self.constants.grazing));
+            let result = counts.then(|| {
+                let before = Accumulated { flux: vector(9), radius2: number(12), count: number(13) };
+                preu::refine(&before, &vector(6), &photon.flux, &self.constants)
+            });
+            counters.operations += 1;
+            counters.updates += u64::from(counts);
+            // A group has no more operations than there are PREUs.
+            let _ = self.pipe.issue(hit, result);
+            group.advance();
+        }
+        self.issuing = None;
+        Ok(())
     }
 }

@@ -91,6 +91,17 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
     /// # Errors
     /// A [`Fault`]: the job is over, what was in flight is dropped.
     pub fn tick(&mut self, memory: &mut [u32], counters: &mut Counters) -> Result<Progress, Fault> {
+        self.clock(memory, counters, Self::issue)
+    }
+
+    /// One clock, with `issue` as the issue stage: the plain one, or the one of [`fast`](crate::fast).
+    #[inline]
+    pub(crate) fn clock(
+        &mut self,
+        memory: &mut [u32],
+        counters: &mut Counters,
+        issue: impl FnOnce(&mut Self, &[u32], &mut Counters) -> Result<(), Fault>,
+    ) -> Result<Progress, Fault> {
         self.feed.fetch(memory, counters)?;
         let drained = self.feed.is_dry();
         let plan = self.job.rules.scheduler.plan(&self.buffer, N as u32, drained);
@@ -114,7 +125,7 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
             self.load(room);
             self.issuing = self.operands.shift(dispatched);
         }
-        self.issue(memory, counters)?;
+        issue(self, memory, counters)?;
 
         let done = scheduled && self.operands.is_empty() && self.issuing.is_none() && self.pipe.is_empty();
         Ok(if done { Progress::Done } else { Progress::Running })
@@ -147,7 +158,7 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
     }
 
     /// Issues the group at the head, in order, up to the first operation that a hazard holds back.
-    fn issue(&mut self, memory: &[u32], counters: &mut Counters) -> Result<(), Fault> {
+    pub(crate) fn issue(&mut self, memory: &[u32], counters: &mut Counters) -> Result<(), Fault> {
         let Some(mut group) = self.issuing.take() else { return Ok(()) };
         while let Some((tag, entry)) = group.first() {
             let hit = self.hit_number(memory, entry)?;

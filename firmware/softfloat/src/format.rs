@@ -1,0 +1,146 @@
+//! What a datapath asks of its numbers, so that one source serves every format: free.
+
+use crate::{F24, F32};
+
+/// The number formats a device can be built with, as numbered in its capability register.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(u8)]
+pub enum FormatCode {
+    /// IEEE 754 single precision, 1-8-23.
+    F32 = 0,
+    /// 1-7-16.
+    F24 = 1,
+}
+
+impl FormatCode {
+    /// The format with this number in the capability register, if there is one.
+    #[must_use]
+    pub const fn from_bits(bits: u32) -> Option<FormatCode> {
+        match bits {
+            0 => Some(FormatCode::F32),
+            1 => Some(FormatCode::F24),
+            _ => None,
+        }
+    }
+
+    /// "f32" or "f24".
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            FormatCode::F32 => "f32",
+            FormatCode::F24 => "f24",
+        }
+    }
+}
+
+/// A number format a datapath can be built of. Every operation rounds to nearest even with gradual subnormals, and gives
+/// the canonical NaN, so that all implementations of one [`CODE`](Format::CODE) agree to the bit.
+pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
+    /// "f32" or "f24".
+    const NAME: &'static str;
+    /// The number in the capability register.
+    const CODE: FormatCode;
+    /// Positive zero.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+    /// The number with these bits; upper bits are ignored.
+    fn from_bits(bits: u32) -> Self;
+    /// The bits, right-aligned.
+    fn to_bits(self) -> u32;
+    /// The nearest number to a host `f32`; a NaN becomes the canonical one.
+    fn from_f32(x: f32) -> Self;
+    /// The same number as a host `f32`.
+    fn to_f32(self) -> f32;
+    /// `self + other`.
+    #[must_use]
+    fn add(self, other: Self) -> Self;
+    /// `self − other`.
+    #[must_use]
+    fn sub(self, other: Self) -> Self;
+    /// `self · other`.
+    #[must_use]
+    fn mul(self, other: Self) -> Self;
+    /// `self / other`.
+    #[must_use]
+    fn div(self, other: Self) -> Self;
+    /// `self · self`.
+    #[must_use]
+    fn square(self) -> Self;
+    /// The square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// `self < other`; false with a NaN.
+    fn lt(self, other: Self) -> bool;
+    /// `self ≤ other`; false with a NaN.
+    fn le(self, other: Self) -> bool;
+    /// `self = other` as numbers; false with a NaN.
+    fn eq(self, other: Self) -> bool;
+}
+
+macro_rules! soft_format {
+    ($float:ty, $code:expr) => {
+        impl Format for $float {
+            const NAME: &'static str = $code.name();
+            const CODE: FormatCode = $code;
+            const ZERO: Self = <$float>::ZERO;
+            const ONE: Self = <$float>::ONE;
+            #[inline]
+            fn from_bits(bits: u32) -> Self {
+                <$float>::from_bits(bits)
+            }
+            #[inline]
+            fn to_bits(self) -> u32 {
+                <$float>::to_bits(self)
+            }
+            #[inline]
+            fn from_f32(x: f32) -> Self {
+                <$float>::from_f32(x)
+            }
+            #[inline]
+            fn to_f32(self) -> f32 {
+                <$float>::to_f32(self)
+            }
+            #[inline]
+            fn add(self, other: Self) -> Self {
+                <$float>::add(self, other)
+            }
+            #[inline]
+            fn sub(self, other: Self) -> Self {
+                <$float>::sub(self, other)
+            }
+            #[inline]
+            fn mul(self, other: Self) -> Self {
+                <$float>::mul(self, other)
+            }
+            #[inline]
+            fn div(self, other: Self) -> Self {
+                <$float>::div(self, other)
+            }
+            #[inline]
+            fn square(self) -> Self {
+                <$float>::square(self)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                <$float>::sqrt(self)
+            }
+            #[inline]
+            fn lt(self, other: Self) -> bool {
+                <$float>::lt(self, other)
+            }
+            #[inline]
+            fn le(self, other: Self) -> bool {
+                <$float>::le(self, other)
+            }
+            #[inline]
+            fn eq(self, other: Self) -> bool {
+                <$float>::eq(self, other)
+            }
+        }
+    };
+}
+
+soft_format!(F32, FormatCode::F32);
+soft_format!(F24, FormatCode::F24);
