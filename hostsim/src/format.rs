@@ -87,7 +87,7 @@ const QUANTUM: f64 = f64::from_bits((1023 - 78) << 52);
 #[inline(always)]
 fn rounded(x: f64) -> HostF24 {
     let magnitude = x.abs();
-    if magnitude >= LEAST_NORMAL && magnitude < OVERFLOW {
+    if (LEAST_NORMAL..OVERFLOW).contains(&magnitude) {
         let bits = x.to_bits();
         let to_even = (1u64 << (SPARE - 1)) - 1 + (bits >> SPARE & 1);
         let nearest = f64::from_bits((bits + to_even) >> SPARE << SPARE);
@@ -128,7 +128,7 @@ impl Format for HostF24 {
     #[inline(always)]
     fn to_bits(self) -> u32 {
         let magnitude = self.0.abs();
-        if magnitude >= LEAST_NORMAL && magnitude < OVERFLOW {
+        if (LEAST_NORMAL..OVERFLOW).contains(&magnitude) {
             let bits = self.0.to_bits();
             let body = ((bits >> SPARE) & 0x7ff_ffff) as u32 - ((REBIAS as u32) << 16);
             return body | ((bits >> 63) as u32) << 23;
@@ -186,7 +186,8 @@ mod tests {
 
     /// Bits with all exponents, and the special values more often than chance has them.
     fn bits(width: u32) -> impl Strategy<Value = u32> {
-        let special = prop::sample::select(vec![0u32, 1, 2, 0x7f_ffff, 0x80_0000, 0x80_0001, 0x01_0000, 0x00_ffff]);
+        let special =
+            prop::sample::select(vec![0u32, 1, 2, 0x7f_ffff, 0x80_0000, 0x80_0001, 0x01_0000, 0x00_ffff]);
         let top = if width == 24 { 0x7f_0000u32 } else { 0x7f80_0000 };
         prop_oneof![6 => any::<u32>(), 1 => special, 1 => Just(top), 1 => Just(top | 0x4000), 1 => Just(top - 1)]
             .prop_map(move |bits| if width == 24 { bits & 0xff_ffff } else { bits })

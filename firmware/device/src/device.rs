@@ -89,11 +89,11 @@ impl<F: Format, const N: usize, M: AsRef<[u32]> + AsMut<[u32]>> Device<F, N, M> 
         }
     }
 
-    /// What a clock, or many, left behind.
-    fn settle(&mut self, event: Option<Event>) {
+    /// What a clock, or many, left behind; `waiting` records were in the ring before. Not RING_TAIL less RING_HEAD: software
+    /// may write the tail when no update runs, and that is no ring to fall low.
+    fn settle(&mut self, waiting: u32, event: Option<Event>) {
         let ring = self.pree.ring();
-        let before = self.registers.tail.wrapping_sub(self.registers.head);
-        if before > self.registers.low && ring.waiting <= self.registers.low {
+        if waiting > self.registers.low && ring.waiting <= self.registers.low {
             self.registers.status = self.registers.status.with_ring_space(true);
         }
         self.registers.head = ring.head;
@@ -200,14 +200,16 @@ impl<F: Format, const N: usize, M: AsRef<[u32]> + AsMut<[u32]>> Target for Devic
     }
 
     fn tick(&mut self) {
+        let waiting = self.pree.ring().waiting;
         let event = self.pree.tick(self.memory.as_mut());
-        self.settle(event);
+        self.settle(waiting, event);
     }
 
     fn advance(&mut self, mut cycles: u64) {
         while cycles > 0 {
+            let waiting = self.pree.ring().waiting;
             let (used, event) = self.pree.advance(self.memory.as_mut(), cycles);
-            self.settle(event);
+            self.settle(waiting, event);
             cycles -= used;
         }
     }

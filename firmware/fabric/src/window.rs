@@ -76,14 +76,24 @@ impl Buffer {
 
     /// `W` words of a record, from word `offset` of it on; `None` when there is no such record or it is shorter.
     #[inline]
-    pub fn read<'m, const W: usize>(&self, memory: &'m [u32], record: u32, offset: u32) -> Option<&'m [u32; W]> {
+    pub fn read<'m, const W: usize>(
+        &self,
+        memory: &'m [u32],
+        record: u32,
+        offset: u32,
+    ) -> Option<&'m [u32; W]> {
         let first = self.word(record, offset, W)?;
         memory.get(first..)?.first_chunk()
     }
 
     /// The same, to be written.
     #[inline]
-    pub fn write<'m, const W: usize>(&self, memory: &'m mut [u32], record: u32, offset: u32) -> Option<&'m mut [u32; W]> {
+    pub fn write<'m, const W: usize>(
+        &self,
+        memory: &'m mut [u32],
+        record: u32,
+        offset: u32,
+    ) -> Option<&'m mut [u32; W]> {
         let first = self.word(record, offset, W)?;
         memory.get_mut(first..)?.first_chunk_mut()
     }

@@ -117,7 +117,8 @@ mod tests {
     /// Fig. 11's pattern: each group by leaps, then the row beside it.
     #[test]
     fn leaps_and_then_moves_a_row_on() {
-        let first: Vec<_> = order::<4>(Allocation::Leaping, 64 * 3).iter().map(|cycle| cycle[1].unwrap()).collect();
+        let first: Vec<_> =
+            order::<4>(Allocation::Leaping, 64 * 3).iter().map(|cycle| cycle[1].unwrap()).collect();
         assert_eq!(first[..4], [48, 51, 54, 57]);
         assert_eq!(first[16..18], [49, 52]);
         assert_eq!(first.len(), 48);

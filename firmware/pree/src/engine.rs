@@ -9,7 +9,10 @@ use crate::update::{Progress, UpdatePass};
 
 /// What the engine is doing.
 #[derive(Clone, Debug, Default)]
-#[expect(clippy::large_enum_variant, reason = "there is no heap, and one of the two is nearly always at work")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is no heap, and one of the two is nearly always at work"
+)]
 enum State<F, const N: usize> {
     #[default]
     Idle,
@@ -71,9 +74,17 @@ impl<F: Format, const N: usize> Pree<F, N> {
     /// An idle engine.
     pub const fn new() -> Self {
         const {
-            assert!(N.is_power_of_two() && N >= 4 && N <= 16, "the paper's controllers are drawn for 4, 8 and 16 PREUs");
+            assert!(
+                N.is_power_of_two() && N >= 4 && N <= 16,
+                "the paper's controllers are drawn for 4, 8 and 16 PREUs"
+            );
         }
-        Self { state: State::Idle, counters: Counters::ZERO, starved: false, ring: Ring { head: 0, waiting: 0 } }
+        Self {
+            state: State::Idle,
+            counters: Counters::ZERO,
+            starved: false,
+            ring: Ring { head: 0, waiting: 0 },
+        }
     }
 
     /// Starts an update.

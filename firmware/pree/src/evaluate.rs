@@ -9,8 +9,8 @@ use crate::allocation::Addresses;
 use crate::counters::Counters;
 use crate::hazard::{EVALUATE_BYPASS, Verdict};
 use crate::job::{EvaluateJob, Fault, FaultCode};
+use crate::preu;
 use crate::preu::components::EVALUATE_STAGES;
-use crate::preu::{self, Constants};
 use crate::record::{self, Accumulated};
 use crate::update::{Progress, READ_LATENCY};
 
@@ -31,7 +31,7 @@ impl<F: Format, const N: usize> EvaluatePass<F, N> {
     pub fn new(job: EvaluateJob<F>) -> Self {
         Self {
             addresses: Addresses::new(job.allocation, job.hits.count()),
-            inverse_pi: Constants::new(F::ZERO).inverse_pi,
+            inverse_pi: preu::inverse_pi(),
             operands: Delay::new(),
             issuing: [None; N],
             held: false,

@@ -27,7 +27,7 @@ pub const OPERAND_LATENCY: usize = 2 * READ_LATENCY;
 
 /// Photons in work: at most four in the buffer and four in each of the groups dispatched and not yet issued; those are
 /// consecutive arrivals, so a circular file is never overwritten too soon.
-const FILE: usize = 64;
+pub(crate) const FILE: usize = 64;
 const _: () = assert!(FILE >= 4 * (1 + OPERAND_LATENCY + 1) && FILE.is_power_of_two());
 
 /// What a tick came to.
@@ -141,7 +141,8 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
     }
 
     fn dispatch(&mut self, plan: Plan, counters: &mut Counters) -> Option<Group> {
-        let partial = self.job.rules.scheduler == Scheduler::Aftso && aftso::is_partial(&self.buffer, N as u32);
+        let partial =
+            self.job.rules.scheduler == Scheduler::Aftso && aftso::is_partial(&self.buffer, N as u32);
         counters.partial_dispatches += u64::from(partial);
         Group::take(&mut self.buffer, plan)
     }

@@ -24,12 +24,13 @@ pub struct Constants<F> {
 impl<F: Format> Constants<F> {
     /// The hard-wired numbers beside `alpha`.
     pub fn new(alpha: F) -> Self {
-        Self {
-            alpha,
-            inverse_pi: F::from_f32(core::f32::consts::FRAC_1_PI),
-            grazing: F::from_f32(1e-3),
-        }
+        Self { alpha, inverse_pi: F::from_f32(core::f32::consts::FRAC_1_PI), grazing: F::from_f32(1e-3) }
     }
+}
+
+/// 1/π, rounded to the format.
+pub fn inverse_pi<F: Format>() -> F {
+    F::from_f32(core::f32::consts::FRAC_1_PI)
 }
 
 /// Block 1 of Fig. 6 and its comparator: eq. (6), D² <= R².
@@ -62,11 +63,7 @@ pub fn refine<F: Format>(
         let arriving = colour[channel].mul(flux[channel]).mul(constants.inverse_pi);
         before.flux[channel].add(arriving).mul(correction)
     };
-    Accumulated {
-        flux: [refined(0), refined(1), refined(2)],
-        radius2: before.radius2.mul(correction),
-        count,
-    }
+    Accumulated { flux: [refined(0), refined(1), refined(2)], radius2: before.radius2.mul(correction), count }
 }
 
 /// One whole hit-point update operation; `None` when the photon does not count for this hit point.

@@ -97,15 +97,13 @@ impl Group {
     pub fn take(buffer: &mut Buffer, plan: Plan) -> Option<Self> {
         let Plan::Dispatch { whole, part } = plan else { return None };
         let mut group = Self::default();
-        let last = part > 0;
-        for listed in buffer.iter_mut().take(whole + usize::from(last)).enumerate().map(|(place, listed)| {
+        let touched = whole + usize::from(part > 0);
+        for (place, listed) in buffer.iter_mut().take(touched).enumerate() {
             let count = if place < whole { listed.n } else { part.min(listed.n) };
             let ref_addr = listed.p_addr.wrapping_add(listed.n).wrapping_sub(1);
             listed.n -= count;
-            Segment { tag: listed.tag, ref_addr, count }
-        }) {
             // A plan names no more lists than the buffer has.
-            let _ = group.segments.push(listed);
+            let _ = group.segments.push(Segment { tag: listed.tag, ref_addr, count });
         }
         if whole > 0 {
             buffer.rotate_left(whole);
@@ -166,16 +164,14 @@ mod tests {
     /// D6: a list longer than the PREUs are many stays in its entry with n reduced.
     #[test]
     fn a_part_leaves_the_front_of_the_list() {
-        let mut buffer = Buffer::from_slice(&[
-            Listed { tag: 0, p_addr: 10, n: 1 },
-            Listed { tag: 1, p_addr: 20, n: 9 },
-        ])
-        .unwrap();
+        let mut buffer =
+            Buffer::from_slice(&[Listed { tag: 0, p_addr: 10, n: 1 }, Listed { tag: 1, p_addr: 20, n: 9 }])
+                .unwrap();
         let group = Group::take(&mut buffer, Plan::Dispatch { whole: 1, part: 3 }).unwrap();
-        assert_eq!(group.segments(), [
-            Segment { tag: 0, ref_addr: 10, count: 1 },
-            Segment { tag: 1, ref_addr: 28, count: 3 }
-        ]);
+        assert_eq!(
+            group.segments(),
+            [Segment { tag: 0, ref_addr: 10, count: 1 }, Segment { tag: 1, ref_addr: 28, count: 3 }]
+        );
         assert_eq!(buffer, [Listed { tag: 1, p_addr: 20, n: 6 }]);
     }
 }

@@ -1,0 +1,10 @@
+//! What only a board has. In: nothing. Out: the log, the report, the exit, a clock to wait by. Cost: SysTick and UART1.
+//!
+//! The report is text through semihosting, which QEMU and a debug probe show as it is. The log is defmt frames on UART1:
+//! `-monitor none -serial null -serial file:FILE` behind the runner's arguments keeps them, and `defmt-print -e ELF < FILE` reads them.
+
+mod exit;
+mod log;
+pub mod model;
+
+pub use exit::{failure, success};

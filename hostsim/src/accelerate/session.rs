@@ -1,0 +1,247 @@
+//! One update and one evaluation, through the driver; in: hit points, index table, photons in chunks, out: what the device made
+//! of them; cost: the engine's cycles.
+
+use std::cell::RefCell;
+use std::io;
+use std::time::{Duration, Instant};
+
+use lucerna_bus::{Model, TargetError};
+use lucerna_device::Device;
+use lucerna_driver::{
+    Capabilities, Counters, Deadline, Error, EvaluateJob, HitPoint as HitRecord, JobError, Layout,
+    LayoutError, Lucerna, NumberFormat, Photon, Sizes, UpdateJob,
+};
+use lucerna_softfloat::{F24, F32, Format};
+
+use super::bus::{MaybeTraced, MaybeTracedDelay, TraceFile};
+use super::memory::HostMemory;
+use super::setup::{Arith, Setup, Units};
+use crate::format::{HostF24, HostF32};
+use crate::grid::HashGrid;
+use crate::oracle::State;
+use crate::trace::{HitPoint, PhotonChunk};
+
+/// α of the published program.
+pub const ALPHA: f32 = 0.7;
+
+/// Device time that one chunk of photons, or an evaluation, may take.
+const DEADLINE: Deadline = Deadline::seconds(3600);
+
+/// What the device works on.
+#[derive(Clone, Copy, Debug)]
+pub struct Workload<'a> {
+    /// In order of their numbers.
+    pub points: &'a [HitPoint],
+    /// Their index table and search radius.
+    pub grid: &'a HashGrid,
+    /// Pixels of the picture.
+    pub pixels: u32,
+    /// Photons emitted in all.
+    pub emitted: u32,
+}
+
+/// Where the photons come from, in order.
+pub trait PhotonSource {
+    /// The next chunk; `None` at the end. Its time is not the device's.
+    fn next_chunk(&mut self) -> Option<&PhotonChunk>;
+}
+
+/// What the device gave back.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// What it said it is.
+    pub capabilities: Capabilities,
+    /// Counted during the update.
+    pub update: Counters,
+    /// Counted during the evaluation.
+    pub evaluate: Counters,
+    /// Every hit point's accumulated words, in the device's format.
+    pub states: Vec<State>,
+    /// Every pixel's bits, in the device's format.
+    pub pixel_bits: Vec<[u32; 3]>,
+    /// The same as numbers.
+    pub pixels: Vec<[f32; 3]>,
+    /// Host time from the first write to the last read, photons' tracing not included.
+    pub host_time: Duration,
+}
+
+/// Why there is no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// More memory than 32-bit addresses reach.
+    #[error(
+        "the job needs {0} bytes of device memory, more than 32-bit addresses reach: make the picture smaller"
+    )]
+    TooLarge(u64),
+    /// The buffers could not be laid out.
+    #[error("the job's buffers cannot be laid out: {0}")]
+    Layout(#[from] LayoutError),
+    /// The job could not be expressed.
+    #[error("the job is not one the device has: {0}")]
+    Job(#[from] JobError),
+    /// The driver gave up.
+    #[error("the driver reports: {0}")]
+    Driver(#[from] Error<TargetError>),
+    /// The trace's file.
+    #[error(
+        "the bus trace cannot be written: {0}; name a file on a disk with room, or leave --bus-trace away"
+    )]
+    Trace(#[from] io::Error),
+}
+
+/// Builds the device that `setup` names and runs the workload on it.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run(
+    setup: &Setup,
+    workload: &Workload<'_>,
+    source: &mut dyn PhotonSource,
+) -> Result<Outcome, RunError> {
+    match (setup.format, setup.arith) {
+        (NumberFormat::F32, Arith::Fast) => by_units::<HostF32>(setup, workload, source),
+        (NumberFormat::F32, Arith::Soft) => by_units::<F32>(setup, workload, source),
+        (NumberFormat::F24, Arith::Fast) => by_units::<HostF24>(setup, workload, source),
+        (NumberFormat::F24, Arith::Soft) => by_units::<F24>(setup, workload, source),
+    }
+}
+
+fn by_units<F: Format>(
+    setup: &Setup,
+    workload: &Workload<'_>,
+    source: &mut dyn PhotonSource,
+) -> Result<Outcome, RunError> {
+    match setup.units {
+        Units::Four => on_device::<F, 4>(setup, workload, source),
+        Units::Eight => on_device::<F, 8>(setup, workload, source),
+        Units::Sixteen => on_device::<F, 16>(setup, workload, source),
+    }
+}
+
+fn on_device<F: Format, const N: usize>(
+    setup: &Setup,
+    workload: &Workload<'_>,
+    source: &mut dyn PhotonSource,
+) -> Result<Outcome, RunError> {
+    let sizes = Sizes {
+        hit_points: workload.points.len() as u32,
+        index_entries: workload.grid.entries().len() as u32,
+        pixels: workload.pixels,
+        ring_entries: setup.ring_entries,
+        normal_test: setup.normal_test,
+    };
+    let bytes = sizes.bytes();
+    let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
+    let device: Device<F, N, _> = Device::new(HostMemory::new(words));
+    let model = Model::new(device).with_timing(setup.timing);
+    let header = header(setup, words);
+    let trace = match &setup.bus_trace {
+        None => None,
+        Some(path) => Some(RefCell::new(TraceFile::create(path, &header)?)),
+    };
+    let mut bus = MaybeTraced::new(model.bus(), trace.as_ref());
+    let delay = MaybeTracedDelay::new(model.delay(), trace.as_ref());
+    let outcome = drive(&mut bus, delay, sizes, setup, workload, source)?;
+    if bus.lost() > 0 {
+        return Err(io::Error::other(format!("{} lines were not taken", bus.lost())).into());
+    }
+    if let Some(trace) = trace {
+        trace.into_inner().finish()?;
+    }
+    Ok(outcome)
+}
+
+/// What `hostsim replay` has to know to build the same device.
+fn header(setup: &Setup, words: usize) -> String {
+    let (units, format) = (setup.units.count(), setup.format.name());
+    format!("lucerna bus trace: units {units} format {format} words {words}")
+}
+
+fn drive(
+    bus: &mut MaybeTraced<'_, impl lucerna_bus::Bus<Error = TargetError>>,
+    delay: impl embedded_hal::delay::DelayNs,
+    sizes: Sizes,
+    setup: &Setup,
+    workload: &Workload<'_>,
+    source: &mut dyn PhotonSource,
+) -> Result<Outcome, RunError> {
+    let started = Instant::now();
+    let mut lucerna = Lucerna::probe(bus, delay)?;
+    let capabilities = *lucerna.capabilities();
+    let layout = Layout::packed(&capabilities, sizes)?;
+    let update_job = UpdateJob::new(&layout, ALPHA, setup.policies)?;
+    let evaluate_job = EvaluateJob::new(&layout, workload.emitted as f32, setup.policies)?;
+    lucerna.clear_counters()?;
+
+    let mut pree = lucerna.pree()?;
+    write_hit_points(workload, |first, records| pree.write_hit_points(&layout, first, records))?;
+    pree.write_index(&layout, 0, workload.grid.entries())?;
+    pree.zero_pixels(&layout)?;
+
+    let mut host_time = started.elapsed();
+    let mut photons = Vec::new();
+    let mut stream = pree.update(&update_job)?;
+    while let Some(chunk) = source.next_chunk() {
+        let started = Instant::now();
+        photons.clear();
+        photons.extend(chunk.hits.iter().zip(&chunk.lists).map(|(hit, list)| Photon {
+            position: hit.position.to_f32(),
+            normal: hit.normal.to_f32(),
+            flux: hit.flux.to_f32(),
+            p_addr: list.p_addr,
+            n: list.n,
+        }));
+        stream.push_all(&photons, DEADLINE)?;
+        host_time += started.elapsed();
+    }
+    let started = Instant::now();
+    stream.finish(DEADLINE)?;
+    let update = pree.counters()?;
+
+    pree.clear_counters()?;
+    pree.evaluate(&evaluate_job)?.wait(DEADLINE)?;
+    let evaluate = pree.counters()?;
+
+    let mut records = vec![HitRecord::default(); workload.points.len()];
+    pree.read_hit_points(&layout, 0, &mut records)?;
+    let mut pixels = vec![[0.0; 3]; workload.pixels as usize];
+    pree.read_pixels(&layout, 0, &mut pixels)?;
+    host_time += started.elapsed();
+    let mut pixel_bits = vec![[0; 3]; workload.pixels as usize];
+    pree.read_pixel_bits(&layout, 0, &mut pixel_bits)?;
+
+    let states = records.iter().map(|record| state(setup.format, record)).collect();
+    Ok(Outcome { capabilities, update, evaluate, states, pixel_bits, pixels, host_time })
+}
+
+/// Writes the hit points as they are before the first photon, some at a time.
+fn write_hit_points<E>(
+    workload: &Workload<'_>,
+    mut write: impl FnMut(u32, &[HitRecord]) -> Result<(), E>,
+) -> Result<(), E> {
+    const BATCH: usize = 4096;
+    let radius_squared = (workload.grid.radius() * workload.grid.radius()) as f32;
+    let mut first = 0;
+    for points in workload.points.chunks(BATCH) {
+        let records: Vec<HitRecord> = points
+            .iter()
+            .map(|point| HitRecord {
+                position: point.position.to_f32(),
+                normal: point.normal.to_f32(),
+                colour: point.colour.to_f32(),
+                radius_squared,
+                pixel: point.pixel,
+                ..HitRecord::default()
+            })
+            .collect();
+        write(first, &records)?;
+        first += points.len() as u32;
+    }
+    Ok(())
+}
+
+/// A hit point's accumulated words as bits of the device's format, to be compared with the oracle's.
+fn state(format: NumberFormat, record: &HitRecord) -> State {
+    let bits = |number: f32| lucerna_driver::records::encode(format, number);
+    State { flux: record.flux.map(bits), r2: bits(record.radius_squared), n: bits(record.photons) }
+}

@@ -1,0 +1,56 @@
+//! Photons as they are traced; in: a scene, out: one chunk after the other, shown to the judges first; cost: the tracing.
+
+use std::time::{Duration, Instant};
+
+use indicatif::ProgressBar;
+
+use super::Prepared;
+use super::judge::Judge;
+use crate::accelerate::PhotonSource;
+use crate::trace::{PhotonChunk, chunks};
+
+/// Emitted photons a chunk: some 50,000 surface hits.
+const CHUNK: u32 = 1 << 14;
+
+/// Traces chunk after chunk, so that memory stays bounded however many photons there are.
+pub struct TracedPhotons<'a> {
+    prepared: &'a Prepared,
+    ranges: Box<dyn Iterator<Item = core::ops::Range<u32>>>,
+    chunk: PhotonChunk,
+    judge: &'a mut Judge,
+    bar: &'a ProgressBar,
+    trace_time: Duration,
+}
+
+impl<'a> TracedPhotons<'a> {
+    /// All photons `0..emitted`.
+    pub fn new(prepared: &'a Prepared, emitted: u32, judge: &'a mut Judge, bar: &'a ProgressBar) -> Self {
+        bar.set_length(emitted.into());
+        bar.set_message("photons");
+        Self {
+            prepared,
+            ranges: Box::new(chunks(emitted, CHUNK)),
+            chunk: PhotonChunk::default(),
+            judge,
+            bar,
+            trace_time: Duration::ZERO,
+        }
+    }
+
+    /// Host time spent on tracing.
+    pub const fn trace_time(&self) -> Duration {
+        self.trace_time
+    }
+}
+
+impl PhotonSource for TracedPhotons<'_> {
+    fn next_chunk(&mut self) -> Option<&PhotonChunk> {
+        let range = self.ranges.next()?;
+        self.bar.set_position(range.start.into());
+        let started = Instant::now();
+        self.chunk.fill(&self.prepared.scene, &self.prepared.grid, range);
+        self.trace_time += started.elapsed();
+        self.judge.watch(&self.chunk, self.prepared.grid.entries());
+        Some(&self.chunk)
+    }
+}

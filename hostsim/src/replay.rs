@@ -1,0 +1,102 @@
+//! A bus trace done again; in: its text, out: how many accesses agreed, or the first that did not; cost: the device's cycles.
+
+use std::path::PathBuf;
+
+use lucerna_bus::{Model, ReplayError, TargetError, replay_timed};
+use lucerna_device::Device;
+use lucerna_softfloat::{F24, F32, Format};
+
+use crate::accelerate::memory::HostMemory;
+use crate::accelerate::{Arith, Units};
+use crate::cli::ReplayArgs;
+use crate::format::{HostF24, HostF32};
+
+/// Why a trace could not be done again, or came out otherwise.
+#[derive(Debug, thiserror::Error)]
+pub enum TraceError {
+    /// The file.
+    #[error("{path} cannot be read: {source}")]
+    Read {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The first line.
+    #[error(
+        "{0} does not begin with `# lucerna bus trace: units 4|8|16 format f32|f24 words N`: it says which device to build"
+    )]
+    Header(PathBuf),
+    /// A line.
+    #[error("{path}: {error}")]
+    Line {
+        /// Of which trace.
+        path: PathBuf,
+        /// Which line, and what about it.
+        error: Box<ReplayError<TargetError>>,
+    },
+}
+
+/// The device that a trace was taken from.
+struct Header {
+    units: Units,
+    format: String,
+    words: usize,
+}
+
+impl Header {
+    fn parse(line: &str) -> Option<Self> {
+        let words: Vec<&str> = line.strip_prefix("# lucerna bus trace: ")?.split_whitespace().collect();
+        let ["units", units, "format", format @ ("f32" | "f24"), "words", words] = words[..] else {
+            return None;
+        };
+        Some(Self {
+            units: [Units::Four, Units::Eight, Units::Sixteen]
+                .into_iter()
+                .find(|u| u.count().to_string() == units)?,
+            format: format.to_owned(),
+            words: words.parse().ok().filter(|words| *words < 1 << 30)?,
+        })
+    }
+}
+
+/// Does a trace again on a fresh device and compares every word that was read.
+///
+/// # Errors
+/// [`TraceError`].
+pub fn run(args: &ReplayArgs) -> Result<String, TraceError> {
+    let path = &args.trace;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| TraceError::Read { path: path.clone(), source })?;
+    let first = text.lines().next().unwrap_or_default();
+    let mut header = Header::parse(first).ok_or_else(|| TraceError::Header(path.clone()))?;
+    if let Some(units) = args.units {
+        header.units = units.into();
+    }
+    match (header.format.as_str(), args.arith.into()) {
+        ("f24", Arith::Fast) => by_units::<HostF24>(args, &header, &text),
+        ("f24", Arith::Soft) => by_units::<F24>(args, &header, &text),
+        (_, Arith::Fast) => by_units::<HostF32>(args, &header, &text),
+        (_, Arith::Soft) => by_units::<F32>(args, &header, &text),
+    }
+}
+
+fn by_units<F: Format>(args: &ReplayArgs, header: &Header, text: &str) -> Result<String, TraceError> {
+    match header.units {
+        Units::Four => on_device::<F, 4>(args, header, text),
+        Units::Eight => on_device::<F, 8>(args, header, text),
+        Units::Sixteen => on_device::<F, 16>(args, header, text),
+    }
+}
+
+fn on_device<F: Format, const N: usize>(
+    args: &ReplayArgs,
+    header: &Header,
+    text: &str,
+) -> Result<String, TraceError> {
+    let device: Device<F, N, _> = Device::new(HostMemory::new(header.words));
+    let model = Model::new(device).with_timing(args.timing.into());
+    let replayed = replay_timed(text, &mut model.bus(), &mut model.delay())
+        .map_err(|error| TraceError::Line { path: args.trace.clone(), error: Box::new(error) })?;
+    Ok(format!("{} accesses, all as in the trace; {} cycles", replayed.accesses, model.elapsed()))
+}
