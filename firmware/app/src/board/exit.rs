@@ -2,10 +2,13 @@
 //! probe.
 #![allow(unsafe_code)] // The attributes of cortex-m-rt name symbols, and its hard-fault handler is an `unsafe fn`.
 
+use core::fmt::Write;
 use core::panic::PanicInfo;
 
 use cortex_m_rt::{ExceptionFrame, exception};
-use cortex_m_semihosting::{debug, hio};
+use cortex_m_semihosting::debug;
+
+use super::host::HostStream;
 
 /// Ends with status 0.
 pub fn success() -> ! {
@@ -14,10 +17,10 @@ pub fn success() -> ! {
 
 /// Ends with status 1, and says why: in pieces, as core's formatting would add two KiB to every image.
 pub fn failure(why: &[&str]) -> ! {
-    if let Ok(mut stderr) = hio::hstderr() {
+    if let Some(mut stderr) = HostStream::stderr() {
         for piece in why.iter().chain(&["\n"]) {
             // Nobody is left to tell, should it fail.
-            let _ = stderr.write_all(piece.as_bytes());
+            let _ = stderr.write_str(piece);
         }
     }
     exit(debug::EXIT_FAILURE)

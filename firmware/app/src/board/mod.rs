@@ -4,6 +4,7 @@
 //! `-monitor none -serial null -serial file:FILE` behind the runner's arguments keeps them, and `defmt-print -e ELF < FILE` reads them.
 
 mod exit;
+mod host;
 mod log;
 pub mod model;
 

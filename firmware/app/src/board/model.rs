@@ -3,11 +3,11 @@
 
 use core::fmt::{self, Write};
 
-use cortex_m_semihosting::hio;
 use lucerna_bus::{Model, Timing};
 use lucerna_device::Device;
 use lucerna_softfloat::Format;
 
+use super::host::HostStream;
 use super::{failure, success};
 use crate::fixture::{Fixture, Fnv1a64};
 use crate::session::{self, MEMORY_WORDS, SessionError};
@@ -49,7 +49,7 @@ pub fn main<F: Format>() -> ! {
         Ok(fixture) => fixture,
         Err(error) => give_up(&error),
     };
-    let Ok(mut stdout) = hio::hstdout() else {
+    let Some(mut stdout) = HostStream::stdout() else {
         failure(&["no stdout: enable semihosting"]);
     };
     defmt::info!("{=u32} photons to go", fixture.header().photons);
@@ -91,7 +91,7 @@ fn session<F: Format>(
 }
 
 fn give_up(error: &dyn fmt::Display) -> ! {
-    if let Ok(mut stderr) = hio::hstderr() {
+    if let Some(mut stderr) = HostStream::stderr() {
         let _ = write!(stderr, "{error}");
     }
     failure(&[])
