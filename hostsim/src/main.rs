@@ -1,5 +1,7 @@
 //! The command line of the host simulator; in: words, out: pictures, tables, JSON, or one paragraph on what went wrong.
 
+use std::fmt::Display;
+use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -25,32 +27,44 @@ fn run(cli: Cli) -> Result<(), AnyError> {
             let bar = progress(options.photons.into());
             let report = render::render(&options, &bar)?;
             bar.finish_and_clear();
-            println!(
+            say(format_args!(
                 "{report}\n\nwrote picture.png, reference.png, difference.png and report.json to {}",
                 options.out.display()
-            );
+            ))?;
             if let Some(trace) = &options.setup.bus_trace {
-                println!("wrote the bus trace to {}; `hostsim replay` does it again", trace.display());
+                say(format_args!(
+                    "wrote the bus trace to {}; `hostsim replay` does it again",
+                    trace.display()
+                ))?;
             }
         }
         Command::Reproduce(Reproduce::Pree { full, out }) => {
             let bar = progress(0);
             let figures = reproduce::pree::run(full, &out, &bar)?;
             bar.finish_and_clear();
-            println!("{figures}\n\nwrote Fig. 4's pictures and pree.json to {}", out.display());
+            say(format_args!("{figures}\n\nwrote Fig. 4's pictures and pree.json to {}", out.display()))?;
         }
-        Command::Replay(args) => println!("{}", replay::run(&args)?),
+        Command::Replay(args) => say(replay::run(&args)?)?,
         Command::Size => {
             let report = size::run(&size::Options::default())?;
-            println!("{report}");
+            say(&report)?;
             if !report.is_within_budgets() {
                 return Err("a budget is exceeded: see the lines above".into());
             }
         }
         Command::Fixture { path } => {
             fixture::write(&path)?;
-            println!("wrote {}", path.display());
+            say(format_args!("wrote {}", path.display()))?;
         }
     }
     Ok(())
+}
+
+/// A line to standard output. A reader that has seen enough (`| head`) is no error.
+fn say(text: impl Display) -> Result<(), AnyError> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(format!("standard output takes no more text: {error}").into()),
+        Ok(()) => Ok(()),
+    }
 }

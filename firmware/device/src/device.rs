@@ -72,7 +72,6 @@ impl<F: Format, const N: usize, M: AsRef<[u32]> + AsMut<[u32]>> Device<F, N, M> 
             return Err(Fault { code: FaultCode::NotIdle, address: 0 });
         }
         self.registers.clear_error();
-        self.registers.head = 0;
         self.registers.tail = 0;
         match job::decode(&self.registers, self.memory_bytes())? {
             Job::Update(job) => self.pree.update(job),
@@ -92,11 +91,9 @@ impl<F: Format, const N: usize, M: AsRef<[u32]> + AsMut<[u32]>> Device<F, N, M> 
     /// What a clock, or many, left behind; `waiting` records were in the ring before. Not RING_TAIL less RING_HEAD: software
     /// may write the tail when no update runs, and that is no ring to fall low.
     fn settle(&mut self, waiting: u32, event: Option<Event>) {
-        let ring = self.pree.ring();
-        if waiting > self.registers.low && ring.waiting <= self.registers.low {
+        if waiting > self.registers.low && self.pree.ring().waiting <= self.registers.low {
             self.registers.status = self.registers.status.with_ring_space(true);
         }
-        self.registers.head = ring.head;
         match event {
             None => {}
             Some(Event::Done) => self.registers.status = self.registers.status.with_done(true),
@@ -153,7 +150,7 @@ impl<F: Format, const N: usize, M: AsRef<[u32]> + AsMut<[u32]>> Target for Devic
             pree::STATUS => self.status().bits(),
             pree::ERROR => pree::Error::default().with_code(self.registers.error).bits(),
             pree::FAULT_ADDRESS => self.registers.fault_address,
-            pree::RING_HEAD => self.registers.head,
+            pree::RING_HEAD => self.pree.ring().head,
             pree::RING_TAIL => self.registers.tail,
             _ => match Counter::at(offset) {
                 Some((counter, half)) => half.of(self.registers.counter(counter)),
@@ -173,9 +170,11 @@ impl<F: Format, const N: usize, M: AsRef<[u32]> + AsMut<[u32]>> Target for Devic
                 let kept = self.registers.status.bits() & !value;
                 self.registers.status = interrupts::Status::from_bits(kept);
             }
-            interrupts::ENABLE => self.registers.enable = interrupts::Enable::from_bits(value),
+            interrupts::ENABLE => {
+                self.registers.enable = interrupts::Enable::from_bits(value & interrupts::Enable::MASK);
+            }
             pree::CONTROL => self.control(pree::Control::from_bits(value)),
-            pree::CONFIG => self.registers.config = pree::Config::from_bits(value),
+            pree::CONFIG => self.registers.config = pree::Config::from_bits(value & pree::Config::MASK),
             pree::RING_TAIL => match self.pree.doorbell(value) {
                 Ok(()) => self.registers.tail = value,
                 Err(fault) => self.registers.record(fault),

@@ -30,8 +30,6 @@ pub struct Registers {
     pub pixels: Table,
     /// Photon ring.
     pub ring: Table,
-    /// Records taken from the ring.
-    pub head: u32,
     /// Records put into the ring.
     pub tail: u32,
     /// The ring's low mark.
@@ -57,7 +55,6 @@ impl Default for Registers {
             index: Table::default(),
             pixels: Table::default(),
             ring: Table::default(),
-            head: 0,
             tail: 0,
             low: 0,
             error: ErrorCode::None,
@@ -73,10 +70,10 @@ impl Registers {
         Windows::new(self.windows, memory_bytes)
     }
 
-    /// Keeps the first error, and raises the interrupt for every one.
+    /// Keeps the first error, and raises the interrupt for every one. NOT_IDLE ends no job, so it does not hide what does.
     pub fn record(&mut self, fault: Fault) {
         self.status = self.status.with_error(true);
-        if self.error == ErrorCode::None {
+        if matches!(self.error, ErrorCode::None | ErrorCode::NotIdle) {
             self.error = code(fault.code);
             self.fault_address = fault.address;
         }

@@ -18,17 +18,17 @@ pub struct Counters {
     pub operations: u64,
     /// Operations which changed their hit point.
     pub updates: u64,
-    /// Cycles of update scheduling, from the first load to the last dispatch.
+    /// Cycles of update scheduling, from the first load to the last dispatch, and every stall.
     pub update_cycles: u64,
     /// Hit points evaluated.
     pub evaluations: u64,
-    /// Cycles in which evaluation issued.
+    /// Cycles of address generation for evaluation, from the first to the last, and every stall.
     pub evaluate_cycles: u64,
-    /// Cycles from START to DONE.
+    /// Cycles of running jobs: fill, drain and stalls included, starved ones not.
     pub total_cycles: u64,
     /// Cycles in which a hazard held back the issue (D7, D12).
     pub stall_cycles: u64,
-    /// Cycles in which a photon could have been taken and the ring was empty.
+    /// Cycles in which the engine's clock was gated for want of photons; it alone depends on the host's pace.
     pub starved_cycles: u64,
     /// Cycles in which a full buffer dispatched fewer hit points than there are units (D1).
     pub partial_dispatches: u64,

@@ -53,11 +53,6 @@ impl<const N: usize> Addresses<N> {
         Self { shares, leap: leap.max(1) }
     }
 
-    /// How far one address is from the one before, eq. (10).
-    pub const fn leap(&self) -> u32 {
-        self.leap
-    }
-
     /// This cycle's address for each PREU; all `None` when the evaluation is done.
     #[inline]
     pub fn step(&mut self) -> [Option<u32>; N] {

@@ -11,13 +11,13 @@ pub struct Counters {
     pub operations: u64,
     /// Operations that changed their hit point.
     pub updates: u64,
-    /// Cycles from the first load of the buffer to the last dispatch, stalls included.
+    /// Cycles from the first load of the buffer to the last dispatch, and every stall.
     pub update_cycles: u64,
     /// Hit points evaluated.
     pub evaluations: u64,
-    /// Cycles in which addresses were generated for evaluation, stalls included.
+    /// Cycles from the first address generated for evaluation to the last, and every stall.
     pub evaluate_cycles: u64,
-    /// Cycles of a running job, its fill and drain included, starved ones not.
+    /// Cycles of running jobs, fill, drain and stalls included, starved ones not.
     pub total_cycles: u64,
     /// Cycles in which a hazard held the issue stage.
     pub stall_cycles: u64,

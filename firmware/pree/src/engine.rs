@@ -8,13 +8,12 @@ use crate::job::{EvaluateJob, Fault, FaultCode, UpdateJob};
 use crate::update::{Progress, UpdatePass};
 
 /// What the engine is doing.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 #[expect(
     clippy::large_enum_variant,
     reason = "there is no heap, and one of the two is nearly always at work"
 )]
 enum State<F, const N: usize> {
-    #[default]
     Idle,
     Update(UpdatePass<F, N>),
     Evaluate(EvaluatePass<F, N>),
@@ -62,12 +61,18 @@ impl Ring {
 }
 
 /// An engine with `N` PREUs of format `F`.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Pree<F, const N: usize> {
     state: State<F, N>,
     counters: Counters,
     starved: bool,
     ring: Ring,
+}
+
+impl<F: Format, const N: usize> Default for Pree<F, N> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl<F: Format, const N: usize> Pree<F, N> {
@@ -122,6 +127,7 @@ impl<F: Format, const N: usize> Pree<F, N> {
     /// A job was refused before it began. A running job goes on.
     pub fn refuse(&mut self, fault: Fault) {
         if !self.is_running() {
+            self.ring = Ring::default();
             self.state = State::Fault(fault);
         }
     }
@@ -221,5 +227,71 @@ impl<F: Format, const N: usize> Pree<F, N> {
                 Some(Event::Fault(fault))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::{Rules, Table};
+    use lucerna_fabric::window::{Window, Windows};
+    use lucerna_softfloat::F32;
+
+    const WINDOWS: Windows<1> = Windows::new([Window { base: 0, limit: 128 }], 128);
+    const NOTHING: Table = Table { base: 0, count: 0 };
+
+    fn update() -> UpdateJob<F32> {
+        let ring = Table { base: 0, count: 4 };
+        UpdateJob::new(&WINDOWS, NOTHING, NOTHING, ring, F32::ONE, Rules::default()).unwrap()
+    }
+
+    fn running() -> Pree<F32, 4> {
+        let mut engine = Pree::new();
+        engine.update(update()).unwrap();
+        engine
+    }
+
+    #[test]
+    fn a_second_start_is_refused_and_changes_nothing() {
+        let mut engine = running();
+        engine.doorbell(2).unwrap();
+        let refused = Fault { code: FaultCode::NotIdle, address: 0 };
+        assert_eq!(engine.update(update()), Err(refused));
+        engine.refuse(refused);
+        assert!(engine.is_running());
+        assert_eq!(engine.ring(), Ring { head: 0, waiting: 2 });
+    }
+
+    #[test]
+    fn an_overrun_ends_the_job() {
+        let mut engine = running();
+        let fault = engine.doorbell(5).unwrap_err();
+        assert_eq!(fault.code, FaultCode::RingOverrun);
+        assert_eq!(engine.status(), Status::Fault(fault));
+        engine.update(update()).unwrap();
+        assert_eq!(engine.ring(), Ring::default(), "a start leaves the fault behind");
+    }
+
+    /// Words for the idle: no effect, no panic.
+    #[test]
+    fn an_idle_engine_has_no_doorbell_and_no_flush() {
+        let mut engine: Pree<F32, 4> = Pree::new();
+        assert_eq!(engine.doorbell(1000), Ok(()));
+        engine.flush();
+        engine.abort();
+        assert_eq!(engine.tick(&mut []), None);
+        assert_eq!(engine.advance(&mut [], 1 << 40), (1 << 40, None));
+        assert_eq!((engine.status(), *engine.counters()), (Status::Idle, Counters::ZERO));
+    }
+
+    /// Gated for want of photons, a far future is reached at once, and only one counter moves.
+    #[test]
+    fn starved_cycles_are_skipped_and_counted() {
+        let mut engine = running();
+        assert_eq!(engine.advance(&mut [0; 32], 1 << 50), (1 << 50, None));
+        assert_eq!(engine.status(), Status::Running { starved: true, flushing: false });
+        assert_eq!(*engine.counters(), Counters { starved_cycles: 1 << 50, ..Counters::ZERO });
+        engine.flush();
+        assert_eq!(engine.advance(&mut [0; 32], 100), (5, Some(Event::Done)));
     }
 }

@@ -20,6 +20,8 @@ pub struct EvaluatePass<F, const N: usize> {
     job: EvaluateJob<F>,
     inverse_pi: F,
     addresses: Addresses<N>,
+    /// All addresses were generated.
+    addressed: bool,
     operands: Delay<[Option<u32>; N], READ_LATENCY>,
     issuing: [Option<u32>; N],
     held: bool,
@@ -32,6 +34,7 @@ impl<F: Format, const N: usize> EvaluatePass<F, N> {
         Self {
             addresses: Addresses::new(job.allocation, job.hits.count()),
             inverse_pi: preu::inverse_pi(),
+            addressed: false,
             operands: Delay::new(),
             issuing: [None; N],
             held: false,
@@ -49,18 +52,18 @@ impl<F: Format, const N: usize> EvaluatePass<F, N> {
         let pixels = self.job.pixels;
         self.pipe.clock(|pixel, value| record::write_pixel(memory, &pixels, pixel, value));
 
-        let mut addressed = false;
         if self.issuing == [None; N] {
             let addresses = self.addresses.step();
-            addressed = addresses != [None; N];
-            self.issuing = self.operands.shift(addressed.then_some(addresses)).unwrap_or([None; N]);
+            self.addressed = addresses == [None; N];
+            self.issuing = self.operands.shift((!self.addressed).then_some(addresses)).unwrap_or([None; N]);
         }
         let stalled = self.issue(memory, counters)?;
-        counters.evaluate_cycles += u64::from(addressed || stalled);
+        counters.evaluate_cycles += u64::from(!self.addressed || stalled);
         counters.stall_cycles += u64::from(stalled);
 
-        let waiting = addressed || self.issuing != [None; N] || !self.operands.is_empty();
-        Ok(if waiting || !self.pipe.is_empty() { Progress::Running } else { Progress::Done })
+        let done =
+            self.addressed && self.issuing == [None; N] && self.operands.is_empty() && self.pipe.is_empty();
+        Ok(if done { Progress::Done } else { Progress::Running })
     }
 
     /// Issues this cycle's hit points, in the PREUs' order, up to the first that a hazard holds back; says whether one was.
@@ -68,8 +71,10 @@ impl<F: Format, const N: usize> EvaluatePass<F, N> {
         for preu in 0..N {
             let Some(hit) = self.issuing[preu] else { continue };
             let fault = Fault { code: FaultCode::PixelRange, address: self.job.hits.address(hit) };
-            let pixel = record::pixel_of(memory, &self.job.hits, hit);
-            let pixel = pixel.filter(|pixel| *pixel < self.job.pixels.count()).ok_or(fault)?;
+            let words = record::read_hit(memory, &self.job.hits, hit).ok_or(fault)?;
+            let pixel = Some(record::pixel_of(words))
+                .filter(|pixel| *pixel < self.job.pixels.count())
+                .ok_or(fault)?;
             let age = self.pipe.age(pixel);
             let verdict = self.job.hazard.judge(age, EVALUATE_BYPASS);
             counters.pixel_conflicts += u64::from(age.is_some() && !self.held);
@@ -83,8 +88,7 @@ impl<F: Format, const N: usize> EvaluatePass<F, N> {
                 Some((_, sum)) => sum,
                 None => record::read_pixel(memory, &self.job.pixels, pixel).ok_or(fault)?,
             };
-            let refined = Accumulated::read(memory, &self.job.hits, hit).ok_or(fault)?;
-            let sum = preu::evaluate(&sum, &refined, self.job.emitted, self.inverse_pi);
+            let sum = preu::evaluate(&sum, &Accumulated::of(words), self.job.emitted, self.inverse_pi);
             // One hit point a PREU and cycle.
             let _ = self.pipe.issue(pixel, Some(sum));
             self.issuing[preu] = None;

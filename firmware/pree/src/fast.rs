@@ -9,7 +9,7 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::Fault;
 use crate::preu;
-use crate::record::{Accumulated, HIT_WORDS, INDEX_WORDS};
+use crate::record::{Accumulated, HIT_WORDS, INDEX_WORDS, Surface};
 use crate::schedule::{Group, Plan, Tag};
 use crate::update::{FILE, Progress, UpdatePass};
 
@@ -87,12 +87,11 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
         used: &mut u64,
     ) -> Result<Progress, Fault> {
         // As in the first of these ticks; in the others there is no room for more.
-        self.feed.fetch(memory, counters).inspect_err(|_| *used += 1)?;
+        self.feed.fetch(memory, counters);
         let hits = self.job.hits;
         while dispatches > 0 && *used < cycles {
             *used += 1;
             counters.total_cycles += 1;
-            counters.update_cycles += 1;
             self.pipe.clock(|hit, result: Accumulated<F>| result.write(memory, &hits, hit));
             if self.issuing.is_none() {
                 let group = Group::take(&mut self.buffer, Plan::Dispatch { whole: 0, part: N as u32 });
@@ -100,6 +99,8 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
                 dispatches -= 1;
             }
             self.sweep(memory, counters)?;
+            // Behind the issue, as in a tick: a cycle that ends in a fault is not counted.
+            counters.update_cycles += 1;
         }
         Ok(Progress::Running)
     }
@@ -120,16 +121,10 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
                 return self.issue(memory, counters);
             };
             let photon = &self.photons[usize::from(tag)];
-            let number = |word: usize| F::from_bits(words[word]);
-            let vector = |word: usize| [number(word), number(word + 1), number(word + 2)];
-            let counts = preu::within(&vector(0), number(12), &photon.position)
-                && (!normal_test || preu::faces(&vector(3), &photon.normal, self.constants.grazing));
-            let result = counts.then(|| {
-                let before = Accumulated { flux: vector(9), radius2: number(12), count: number(13) };
-                preu::refine(&before, &vector(6), &photon.flux, &self.constants)
-            });
+            let (surface, before) = (Surface::of(words), Accumulated::of(words));
+            let result = preu::update(&surface, &before, photon, &self.constants, normal_test);
             counters.operations += 1;
-            counters.updates += u64::from(counts);
+            counters.updates += u64::from(result.is_some());
             // A group has no more operations than there are PREUs.
             let _ = self.pipe.issue(hit, result);
             group.advance();

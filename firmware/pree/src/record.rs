@@ -21,6 +21,21 @@ pub const INDEX_WORDS: u32 = 1;
 /// Words of a pixel.
 pub const PIXEL_WORDS: u32 = 3;
 
+/// A hit point's words.
+pub type HitRecord = [u32; HIT_WORDS as usize];
+
+/// Where things are in a hit point.
+mod hit_word {
+    pub const POSITION: usize = 0;
+    pub const NORMAL: usize = 3;
+    pub const COLOUR: usize = 6;
+    pub const FLUX: usize = 9;
+    pub const RADIUS2: usize = 12;
+    pub const COUNT: usize = 13;
+    pub const PIXEL: usize = 14;
+}
+use hit_word::{COLOUR, COUNT, FLUX, NORMAL, PIXEL, POSITION, RADIUS2};
+
 /// What the datapath takes of a photon.
 #[derive(Clone, Copy, Debug)]
 pub struct Photon<F> {
@@ -85,37 +100,47 @@ impl<F: Format> Arrival<F> {
 }
 
 impl<F: Format> Surface<F> {
-    /// Reads the first nine words of a hit point.
+    /// Of a hit point.
     #[inline]
-    pub fn read(memory: &[u32], hits: &Buffer, hit: u32) -> Option<Self> {
-        let words: &[u32; 9] = hits.read(memory, hit, 0)?;
-        Some(Self { position: numbers(words, 0), normal: numbers(words, 3), colour: numbers(words, 6) })
-    }
-}
-
-impl<F: Format> Accumulated<F> {
-    /// Reads words 9 to 13 of a hit point.
-    #[inline]
-    pub fn read(memory: &[u32], hits: &Buffer, hit: u32) -> Option<Self> {
-        let words: &[u32; 5] = hits.read(memory, hit, 9)?;
-        Some(Self { flux: numbers(words, 0), radius2: F::from_bits(words[3]), count: F::from_bits(words[4]) })
-    }
-
-    /// Writes them back.
-    #[inline]
-    pub fn write(&self, memory: &mut [u32], hits: &Buffer, hit: u32) {
-        // Issued only for hit points that were read, so the record is there.
-        if let Some(words) = hits.write::<5>(memory, hit, 9) {
-            let [r, g, b] = self.flux.map(F::to_bits);
-            *words = [r, g, b, self.radius2.to_bits(), self.count.to_bits()];
+    pub fn of(words: &HitRecord) -> Self {
+        Self {
+            position: numbers(words, POSITION),
+            normal: numbers(words, NORMAL),
+            colour: numbers(words, COLOUR),
         }
     }
 }
 
-/// Reads the pixel number of a hit point.
+impl<F: Format> Accumulated<F> {
+    /// Of a hit point.
+    #[inline]
+    pub fn of(words: &HitRecord) -> Self {
+        let [radius2, count] = [RADIUS2, COUNT].map(|word| F::from_bits(words[word]));
+        Self { flux: numbers(words, FLUX), radius2, count }
+    }
+
+    /// Writes it back.
+    #[inline]
+    pub fn write(&self, memory: &mut [u32], hits: &Buffer, hit: u32) {
+        // Issued only for hit points that were read, so the record is there.
+        if let Some(words) = hits.write::<{ HIT_WORDS as usize }>(memory, hit, 0) {
+            words[FLUX..][..3].copy_from_slice(&self.flux.map(F::to_bits));
+            words[RADIUS2] = self.radius2.to_bits();
+            words[COUNT] = self.count.to_bits();
+        }
+    }
+}
+
+/// Reads a hit point.
 #[inline]
-pub fn pixel_of(memory: &[u32], hits: &Buffer, hit: u32) -> Option<u32> {
-    hits.read::<1>(memory, hit, 14).map(|words| words[0])
+pub fn read_hit<'m>(memory: &'m [u32], hits: &Buffer, hit: u32) -> Option<&'m HitRecord> {
+    hits.read(memory, hit, 0)
+}
+
+/// The pixel number of a hit point.
+#[inline]
+pub const fn pixel_of(words: &HitRecord) -> u32 {
+    words[PIXEL]
 }
 
 /// Reads a pixel.

@@ -16,7 +16,7 @@ use crate::hazard::{Hazard, UPDATE_BYPASS, Verdict};
 use crate::job::{Busy, Fault, FaultCode, UpdateJob};
 use crate::preu::components::UPDATE_STAGES;
 use crate::preu::{self, Constants};
-use crate::record::{Accumulated, Photon, Surface};
+use crate::record::{self, Accumulated, Photon, Surface};
 use crate::schedule::{Buffer, Group, Listed, Plan, Scheduler, Tag, aftso};
 
 /// Cycles of one memory read: the port is ideal, it takes any number of reads a cycle (the paper leaves memory to an
@@ -85,8 +85,8 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
 
     /// One clock.
     ///
-    /// The whole engine stands still while it would load photons that are not there: what it does in which of its own
-    /// cycles does not depend on the host's pace.
+    /// The whole engine stands still while it would load photons that are not there (also while a hazard holds the front, when
+    /// it would not load them in this very cycle): what it does in which of its own cycles does not depend on the host's pace.
     ///
     /// # Errors
     /// A [`Fault`]: the job is over, what was in flight is dropped.
@@ -102,7 +102,7 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
         counters: &mut Counters,
         issue: impl FnOnce(&mut Self, &[u32], &mut Counters) -> Result<(), Fault>,
     ) -> Result<Progress, Fault> {
-        self.feed.fetch(memory, counters)?;
+        self.feed.fetch(memory, counters);
         let drained = self.feed.is_dry();
         let plan = self.job.rules.scheduler.plan(&self.buffer, N as u32, drained);
         let room = self.room(plan);
@@ -116,16 +116,17 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
             return Ok(Progress::Running);
         }
         let scheduled = drained && self.buffer.is_empty();
-        counters.update_cycles += u64::from(!scheduled);
 
         let hits = self.job.hits;
         self.pipe.clock(|hit, result: Accumulated<F>| result.write(memory, &hits, hit));
         if self.issuing.is_none() {
             let dispatched = self.dispatch(plan, counters);
-            self.load(room);
+            self.load(room)?;
             self.issuing = self.operands.shift(dispatched);
         }
+        let stalls = counters.stall_cycles;
         issue(self, memory, counters)?;
+        counters.update_cycles += u64::from(!scheduled || counters.stall_cycles > stalls);
 
         let done = scheduled && self.operands.is_empty() && self.issuing.is_none() && self.pipe.is_empty();
         Ok(if done { Progress::Done } else { Progress::Running })
@@ -147,15 +148,16 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
         Group::take(&mut self.buffer, plan)
     }
 
-    pub(crate) fn load(&mut self, room: usize) {
+    fn load(&mut self, room: usize) -> Result<(), Fault> {
         for _ in 0..room {
-            let Some(arrival) = self.feed.take() else { return };
+            let Some(arrival) = self.feed.take()? else { break };
             let tag = self.next_tag;
             self.next_tag = (tag + 1) % FILE as Tag;
             self.photons[usize::from(tag)] = arrival.photon;
             // `room` was counted from this buffer.
             let _ = self.buffer.push(Listed { tag, p_addr: arrival.p_addr, n: arrival.n });
         }
+        Ok(())
     }
 
     /// Issues the group at the head, in order, up to the first operation that a hazard holds back.
@@ -196,17 +198,18 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
         counters: &mut Counters,
     ) -> Option<Accumulated<F>> {
         counters.operations += 1;
-        let surface = Surface::read(memory, &self.job.hits, hit)?;
+        let words = record::read_hit(memory, &self.job.hits, hit)?;
         let in_flight = self.pipe.result(hit).map(|(_, result)| result);
         let before = match in_flight.filter(|_| verdict == Verdict::Bypass) {
             Some(result) => {
                 counters.forwards += 1;
                 result
             }
-            None => Accumulated::read(memory, &self.job.hits, hit)?,
+            None => Accumulated::of(words),
         };
         let photon = &self.photons[usize::from(tag)];
-        let result = preu::update(&surface, &before, photon, &self.constants, self.job.rules.normal_test);
+        let result =
+            preu::update(&Surface::of(words), &before, photon, &self.constants, self.job.rules.normal_test);
         if result.is_some() {
             counters.updates += 1;
             let stale = self.job.rules.hazard == Hazard::Published && in_flight.is_some();

@@ -12,8 +12,8 @@
 #define LUCERNA__PREE__CONFIG__MODE__EVALUATE 1 // Radiance evaluation of all hit points into pixels (ADISO-REC, PREE §IV.C).
 
 // pree.CONFIG.HAZARD: Hazard policy
-#define LUCERNA__PREE__CONFIG__HAZARD__INTERLOCK 0 // The issue waits for the result in flight: every bit as if in order.
-#define LUCERNA__PREE__CONFIG__HAZARD__FORWARD 1 // The result in flight is taken from the datapath: every bit as if in order.
+#define LUCERNA__PREE__CONFIG__HAZARD__INTERLOCK 0 // An operation waits until the one before it has been written back: every bit as if in order.
+#define LUCERNA__PREE__CONFIG__HAZARD__FORWARD 1 // An operation waits until the result in flight can be bypassed into the stage that needs it (6 cycles in an update, 2 in an evaluation): every bit as if in order.
 #define LUCERNA__PREE__CONFIG__HAZARD__PUBLISHED 2 // No protection, as the paper has none: stale reads happen and are counted.
 
 // pree.CONFIG.BUSY: Busy style
@@ -31,7 +31,7 @@
 
 // pree.CONFIG.ALLOCATION: Allocation of evaluations
 #define LUCERNA__PREE__CONFIG__ALLOCATION__LEAPING 0 // Leaping addresses, which keep hit points of a pixel apart (PREE §IV.C).
-#define LUCERNA__PREE__CONFIG__ALLOCATION__SEQUENTIAL 1 // Consecutive addresses: the baseline of Fig. 4.
+#define LUCERNA__PREE__CONFIG__ALLOCATION__SEQUENTIAL 1 // Each unit walks its group address by address (Fig. 3): the baseline of Fig. 4.
 
 // pree.STATUS.STATE: State
 #define LUCERNA__PREE__STATUS__STATE__IDLE 0 // No job; START is taken.
@@ -43,11 +43,11 @@
 #define LUCERNA__PREE__ERROR__CODE__BAD_CONFIG 1 // CONFIG holds an illegal hazard policy or input width.
 #define LUCERNA__PREE__ERROR__CODE__BAD_RING 2 // RING_ENTRIES is not a power of two from 1 to 65536.
 #define LUCERNA__PREE__ERROR__CODE__WINDOW 3 // A buffer is misaligned or not wholly in one window; FAULT_ADDRESS is its base.
-#define LUCERNA__PREE__ERROR__CODE__RING_OVERRUN 4 // RING_TAIL ran more than RING_ENTRIES ahead of RING_HEAD.
+#define LUCERNA__PREE__ERROR__CODE__RING_OVERRUN 4 // RING_TAIL ran more than RING_ENTRIES ahead of RING_HEAD, or moved on after FLUSH; FAULT_ADDRESS is the base of the ring.
 #define LUCERNA__PREE__ERROR__CODE__INDEX_RANGE 5 // The list of a photon leaves the index table; FAULT_ADDRESS is the record.
 #define LUCERNA__PREE__ERROR__CODE__HIT_RANGE 6 // An index entry is not below HIT_COUNT; FAULT_ADDRESS is the entry.
 #define LUCERNA__PREE__ERROR__CODE__PIXEL_RANGE 7 // The pixel of a hit point is not below PIXEL_COUNT; FAULT_ADDRESS is the hit point.
 #define LUCERNA__PREE__ERROR__CODE__NOT_IDLE 8 // START while running; the running job goes on.
-#define LUCERNA__PREE__ERROR__CODE__TOO_LARGE 9 // The byte size of a buffer does not fit 32 bits.
+#define LUCERNA__PREE__ERROR__CODE__TOO_LARGE 9 // The byte size or the end of a buffer does not fit 32 bits; FAULT_ADDRESS is its base.
 
 #endif

@@ -5,10 +5,11 @@ use std::cell::RefCell;
 use std::io;
 use std::time::{Duration, Instant};
 
-use lucerna_bus::{Model, TargetError};
+use lucerna_bus::{Bus, Model, TargetError};
 use lucerna_device::Device;
+use lucerna_driver::records::HIT_POINT_WORDS;
 use lucerna_driver::{
-    Capabilities, Counters, Deadline, Error, EvaluateJob, HitPoint as HitRecord, JobError, Layout,
+    Buffer, Capabilities, Counters, Deadline, Error, EvaluateJob, HitPoint as HitRecord, JobError, Layout,
     LayoutError, Lucerna, NumberFormat, Photon, Sizes, UpdateJob,
 };
 use lucerna_softfloat::{F24, F32, Format};
@@ -82,6 +83,9 @@ pub enum RunError {
     /// The driver gave up.
     #[error("the driver reports: {0}")]
     Driver(#[from] Error<TargetError>),
+    /// The bus, outside the driver.
+    #[error("the device does not answer: {0}")]
+    Bus(TargetError),
     /// The trace's file.
     #[error(
         "the bus trace cannot be written: {0}; name a file on a disk with room, or leave --bus-trace away"
@@ -158,7 +162,7 @@ fn header(setup: &Setup, words: usize) -> String {
 }
 
 fn drive(
-    bus: &mut MaybeTraced<'_, impl lucerna_bus::Bus<Error = TargetError>>,
+    bus: &mut MaybeTraced<'_, impl Bus<Error = TargetError>>,
     delay: impl embedded_hal::delay::DelayNs,
     sizes: Sizes,
     setup: &Setup,
@@ -202,15 +206,15 @@ fn drive(
     pree.evaluate(&evaluate_job)?.wait(DEADLINE)?;
     let evaluate = pree.counters()?;
 
-    let mut records = vec![HitRecord::default(); workload.points.len()];
-    pree.read_hit_points(&layout, 0, &mut records)?;
     let mut pixels = vec![[0.0; 3]; workload.pixels as usize];
     pree.read_pixels(&layout, 0, &mut pixels)?;
     host_time += started.elapsed();
     let mut pixel_bits = vec![[0; 3]; workload.pixels as usize];
     pree.read_pixel_bits(&layout, 0, &mut pixel_bits)?;
 
-    let states = records.iter().map(|record| state(setup.format, record)).collect();
+    let (mut bus, _) = lucerna.release();
+    let states = read_states(&mut bus, layout.region(Buffer::HitPoints).base(), workload.points.len())
+        .map_err(RunError::Bus)?;
     Ok(Outcome { capabilities, update, evaluate, states, pixel_bits, pixels, host_time })
 }
 
@@ -240,8 +244,15 @@ fn write_hit_points<E>(
     Ok(())
 }
 
-/// A hit point's accumulated words as bits of the device's format, to be compared with the oracle's.
-fn state(format: NumberFormat, record: &HitRecord) -> State {
-    let bits = |number: f32| lucerna_driver::records::encode(format, number);
-    State { flux: record.flux.map(bits), r2: bits(record.radius_squared), n: bits(record.photons) }
+/// Every hit point's accumulated words just as they are in memory, to be compared with the oracle's.
+fn read_states<B: Bus>(bus: &mut B, base: u32, count: usize) -> Result<Vec<State>, B::Error> {
+    let mut words = vec![0; count * HIT_POINT_WORDS];
+    bus.read_block(base, &mut words)?;
+    let (records, _) = words.as_chunks::<HIT_POINT_WORDS>();
+    let state = |record: &[u32; HIT_POINT_WORDS]| State {
+        flux: [record[9], record[10], record[11]],
+        r2: record[12],
+        n: record[13],
+    };
+    Ok(records.iter().map(state).collect())
 }

@@ -10,7 +10,7 @@ use crate::accelerate::PhotonSource;
 use crate::trace::{PhotonChunk, chunks};
 
 /// Emitted photons a chunk: some 50,000 surface hits.
-const CHUNK: u32 = 1 << 14;
+pub const CHUNK: u32 = 1 << 14;
 
 /// Traces chunk after chunk, so that memory stays bounded however many photons there are.
 pub struct TracedPhotons<'a> {

@@ -88,6 +88,14 @@ pub const UPDATE: &[Step] = &[
     step("flux", Multiplier, 3, 9, &["flux + arriving", "correction"], true),
 ];
 
+/// The optional normal test (D8), beside block 1: not in the paper, so on components of its own.
+pub const NORMAL_TEST: &[Step] = &[
+    step("products", Multiplier, 3, 1, &[], false),
+    step("x + y", Adder, 1, 3, &["products"], false),
+    step("cosine", Adder, 1, 5, &["x + y"], false),
+    step("facing", Comparator, 1, 7, &["cosine"], false),
+];
+
 /// Fig. 7: the radiance evaluation, on the shared components; the sum is fed back to the adders of block 3.
 pub const EVALUATE: &[Step] = &[
     step("radius * emitted", Multiplier, 1, 1, &[], true),
@@ -129,7 +137,7 @@ mod tests {
 
     #[test]
     fn nothing_starts_before_what_it_needs_is_done() {
-        for steps in [UPDATE, EVALUATE] {
+        for steps in [UPDATE, NORMAL_TEST, EVALUATE] {
             for step in steps {
                 for need in step.needs {
                     let source = steps.iter().find(|other| other.name == *need).expect("a named row");
@@ -137,6 +145,13 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The normal test is decided before the distance is, so it adds no stage.
+    #[test]
+    fn the_normal_test_is_not_the_longest_path() {
+        let inside = UPDATE.iter().find(|step| step.name == "inside").expect("a named row");
+        assert!(depth(NORMAL_TEST) < inside.start);
     }
 
     /// "the shared data path of a PREU saves seven multipliers, three adders and one divider" (§IV.A.2).

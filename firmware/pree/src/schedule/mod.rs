@@ -127,21 +127,6 @@ impl Group {
             self.next += usize::from(segment.count == 0);
         }
     }
-
-    /// How many operations are left in it.
-    pub fn len(&self) -> u32 {
-        self.segments.iter().map(|segment| segment.count).sum()
-    }
-
-    /// Whether none is left.
-    pub fn is_empty(&self) -> bool {
-        self.first().is_none()
-    }
-
-    /// What is left, segment by segment.
-    pub fn segments(&self) -> &[Segment] {
-        &self.segments[self.next..]
-    }
 }
 
 #[cfg(test)]
@@ -169,7 +154,7 @@ mod tests {
                 .unwrap();
         let group = Group::take(&mut buffer, Plan::Dispatch { whole: 1, part: 3 }).unwrap();
         assert_eq!(
-            group.segments(),
+            group.segments,
             [Segment { tag: 0, ref_addr: 10, count: 1 }, Segment { tag: 1, ref_addr: 28, count: 3 }]
         );
         assert_eq!(buffer, [Listed { tag: 1, p_addr: 20, n: 6 }]);

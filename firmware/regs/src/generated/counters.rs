@@ -28,6 +28,9 @@ impl Control {
     /// Place of CLEAR.
     pub const CLEAR: Field = Field { name: "CLEAR", shift: 1, width: 1 };
 
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::SNAPSHOT.mask() | Self::CLEAR.mask();
+
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -102,27 +105,30 @@ pub enum Counter {
     Operations = 2,
     /// Operations which changed their hit point, the photon being within its radius.
     Updates = 3,
-    /// Cycles of update scheduling, from the first load to the last dispatch; fill and drain of the datapath
+    /// Cycles of update scheduling, from the first load to the last dispatch, stalls included; fill and drain
     /// come on top.
     UpdateCycles = 4,
     /// Hit points evaluated and added to their pixel.
     Evaluations = 5,
-    /// Cycles in which evaluation issued; fill and drain of the datapath come on top.
+    /// Cycles of address generation, from the first to the last, stalls included; fill and drain come on top.
     EvaluateCycles = 6,
-    /// Cycles from START to DONE, fill, drain and waits included, in both modes.
+    /// Cycles of running jobs in both modes, fill, drain and stalls included; starved cycles are not.
     TotalCycles = 7,
-    /// Cycles in which a hazard held back the issue (D7, D12); 0 unless the policy is INTERLOCK.
+    /// Cycles in which a hazard held back the issue (D7, D12); 0 if the policy is PUBLISHED.
     StallCycles = 8,
-    /// Cycles in which an update job could have taken a photon and the ring was empty before FLUSH.
+    /// Cycles in which the clock of the engine was gated, because it would load photons that were not there
+    /// and FLUSH had not come. It alone depends on the pace of the host.
     StarvedCycles = 9,
     /// Cycles in which a full buffer dispatched fewer hit points than there are units (D1).
     PartialDispatches = 10,
-    /// Operations whose hit point was issued fewer than ten cycles before, the same cycle included (D7).
+    /// Operations which found their hit point in flight: issued fewer than ten cycles before, the same cycle
+    /// included (D7). One that is held counts once.
     UpdateConflicts = 11,
     /// Updates computed from a hit point whose newer value was still in the datapath; 0 unless the policy is
     /// PUBLISHED (D7).
     StaleUpdates = 12,
-    /// Evaluations whose pixel was issued fewer than twelve cycles before by any unit (D12).
+    /// Evaluations which found their pixel in flight: issued fewer than twelve cycles before by any unit
+    /// (D12). One that is held counts once.
     PixelConflicts = 13,
     /// Operands taken from the datapath instead of memory; 0 unless the policy is FORWARD (D7).
     Forwards = 14,

@@ -98,6 +98,9 @@ impl Version {
     /// Place of MAJOR.
     pub const MAJOR: Field = Field { name: "MAJOR", shift: 16, width: 16 };
 
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::MINOR.mask() | Self::MAJOR.mask();
+
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -178,6 +181,10 @@ impl Capabilities {
     pub const BUFFER_ENTRIES: Field = Field { name: "BUFFER_ENTRIES", shift: 12, width: 4 };
     /// Place of UNITS.
     pub const UNITS: Field = Field { name: "UNITS", shift: 16, width: 8 };
+
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 =
+        0 | Self::PREUS.mask() | Self::FORMAT.mask() | Self::BUFFER_ENTRIES.mask() | Self::UNITS.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -293,6 +300,10 @@ impl Pipeline {
     /// Place of OPERAND_LATENCY.
     pub const OPERAND_LATENCY: Field = Field { name: "OPERAND_LATENCY", shift: 16, width: 8 };
 
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 =
+        0 | Self::UPDATE_STAGES.mask() | Self::EVALUATE_STAGES.mask() | Self::OPERAND_LATENCY.mask();
+
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -326,8 +337,9 @@ impl Pipeline {
         Self(Self::EVALUATE_STAGES.put(self.0, value))
     }
 
-    /// Operand latency, read-only. Cycles from issuing a hit-point address to its operands entering the first
-    /// stage; 0 when the memory port answers in the same cycle. Set by the build.
+    /// Operand latency, read-only. Cycles from the dispatch of an update operation to its issue: two memory
+    /// reads, index table and hit point. An evaluation takes one read, half of it, and so does the first
+    /// photon record of a job. Set by the build.
     pub const fn operand_latency(self) -> u32 {
         Self::OPERAND_LATENCY.get(self.0)
     }

@@ -35,6 +35,9 @@ impl Status {
     /// Place of RING_SPACE.
     pub const RING_SPACE: Field = Field { name: "RING_SPACE", shift: 2, width: 1 };
 
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
+
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -129,6 +132,9 @@ impl Enable {
     pub const ERROR: Field = Field { name: "ERROR", shift: 1, width: 1 };
     /// Place of RING_SPACE.
     pub const RING_SPACE: Field = Field { name: "RING_SPACE", shift: 2, width: 1 };
+
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {

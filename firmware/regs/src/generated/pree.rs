@@ -20,7 +20,8 @@ pub const CONFIG: u32 = 0x104;
 ///
 /// Fields: [`Status`].
 pub const STATUS: u32 = 0x108;
-/// Byte offset of ERROR: Error. The first error since START; NOT_IDLE is recorded only where no other is.
+/// Byte offset of ERROR: Error. The first error since START or ABORT; NOT_IDLE, which ends no job, gives way
+/// to one that does.
 ///
 /// Fields: [`Error`].
 pub const ERROR: u32 = 0x10C;
@@ -84,7 +85,8 @@ pub const RING_ENTRIES: u32 = 0x138;
 pub const RING_HEAD: u32 = 0x13C;
 /// Byte offset of RING_TAIL: Photon ring tail. Photons put in the ring since START, modulo 2^32; START sets
 /// it to 0. Writing it is the doorbell: records before it must be complete in memory. More than RING_ENTRIES
-/// ahead of RING_HEAD is error RING_OVERRUN.
+/// ahead of RING_HEAD, or a change after FLUSH, is error RING_OVERRUN. Without a running update job it is
+/// stored and has no effect.
 ///
 /// Plain number, read-write; reset 0x0.
 pub const RING_TAIL: u32 = 0x140;
@@ -148,9 +150,10 @@ impl TryFrom<u32> for Mode {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u32)]
 pub enum Hazard {
-    /// The issue waits for the result in flight: every bit as if in order.
+    /// An operation waits until the one before it has been written back: every bit as if in order.
     Interlock = 0,
-    /// The result in flight is taken from the datapath: every bit as if in order.
+    /// An operation waits until the result in flight can be bypassed into the stage that needs it (6 cycles
+    /// in an update, 2 in an evaluation): every bit as if in order.
     Forward = 1,
     /// No protection, as the paper has none: stale reads happen and are counted.
     Published = 2,
@@ -354,7 +357,7 @@ impl TryFrom<u32> for Scheduler {
 pub enum Allocation {
     /// Leaping addresses, which keep hit points of a pixel apart (PREE §IV.C).
     Leaping = 0,
-    /// Consecutive addresses: the baseline of Fig. 4.
+    /// Each unit walks its group address by address (Fig. 3): the baseline of Fig. 4.
     Sequential = 1,
 }
 
@@ -462,7 +465,8 @@ pub enum ErrorCode {
     BadRing = 2,
     /// A buffer is misaligned or not wholly in one window; FAULT_ADDRESS is its base.
     Window = 3,
-    /// RING_TAIL ran more than RING_ENTRIES ahead of RING_HEAD.
+    /// RING_TAIL ran more than RING_ENTRIES ahead of RING_HEAD, or moved on after FLUSH; FAULT_ADDRESS is the
+    /// base of the ring.
     RingOverrun = 4,
     /// The list of a photon leaves the index table; FAULT_ADDRESS is the record.
     IndexRange = 5,
@@ -472,7 +476,7 @@ pub enum ErrorCode {
     PixelRange = 7,
     /// START while running; the running job goes on.
     NotIdle = 8,
-    /// The byte size of a buffer does not fit 32 bits.
+    /// The byte size or the end of a buffer does not fit 32 bits; FAULT_ADDRESS is its base.
     TooLarge = 9,
 }
 
@@ -560,6 +564,9 @@ impl Control {
     /// Place of ABORT.
     pub const ABORT: Field = Field { name: "ABORT", shift: 2, width: 1 };
 
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::START.mask() | Self::FLUSH.mask() | Self::ABORT.mask();
+
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -570,8 +577,9 @@ impl Control {
         self.0
     }
 
-    /// Start, write-only pulse. Latches the configuration, clears ERROR, sets RING_HEAD and RING_TAIL to 0,
-    /// checks every buffer, and runs. While RUNNING, refused with error NOT_IDLE.
+    /// Start, write-only pulse. Latches the configuration, clears ERROR and FAULT_ADDRESS, sets RING_HEAD and
+    /// RING_TAIL to 0, checks every buffer, and runs; the interrupt status is left alone. While RUNNING,
+    /// refused with error NOT_IDLE.
     pub const fn start(self) -> bool {
         Self::START.get(self.0) != 0
     }
@@ -594,7 +602,8 @@ impl Control {
         Self(Self::FLUSH.put(self.0, value as u32))
     }
 
-    /// Abort, write-only pulse. To IDLE at once; results in flight are dropped.
+    /// Abort, write-only pulse. To IDLE at once; results in flight are dropped, ERROR and FAULT_ADDRESS are
+    /// cleared, the interrupt status is not.
     pub const fn abort(self) -> bool {
         Self::ABORT.get(self.0) != 0
     }
@@ -672,6 +681,16 @@ impl Config {
     pub const SCHEDULER: Field = Field { name: "SCHEDULER", shift: 8, width: 1 };
     /// Place of ALLOCATION.
     pub const ALLOCATION: Field = Field { name: "ALLOCATION", shift: 9, width: 1 };
+
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0
+        | Self::MODE.mask()
+        | Self::NORMAL_TEST.mask()
+        | Self::HAZARD.mask()
+        | Self::BUSY.mask()
+        | Self::INPUT_WIDTH.mask()
+        | Self::SCHEDULER.mask()
+        | Self::ALLOCATION.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -834,6 +853,9 @@ impl Status {
     /// Place of FLUSHING.
     pub const FLUSHING: Field = Field { name: "FLUSHING", shift: 3, width: 1 };
 
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::STATE.mask() | Self::STARVED.mask() | Self::FLUSHING.mask();
+
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -858,7 +880,8 @@ impl Status {
         Self(Self::STATE.put(self.0, value.bits()))
     }
 
-    /// Starved, read-only. An update job is running, the ring is empty, and FLUSH has not come.
+    /// Starved, read-only. The clock of the engine is gated: an update job would load photons that are not
+    /// there, and FLUSH has not come.
     pub const fn starved(self) -> bool {
         Self::STARVED.get(self.0) != 0
     }
@@ -913,7 +936,8 @@ impl core::fmt::Debug for Status {
     }
 }
 
-/// Error (ERROR). The first error since START; NOT_IDLE is recorded only where no other is.
+/// Error (ERROR). The first error since START or ABORT; NOT_IDLE, which ends no job, gives way to one that
+/// does.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(transparent)]
@@ -926,6 +950,9 @@ impl Error {
     pub const FIELDS: &'static [Field] = &[Self::CODE];
     /// Place of CODE.
     pub const CODE: Field = Field { name: "CODE", shift: 0, width: 8 };
+
+    /// The bits that belong to a field: a write to the others is ignored.
+    pub const MASK: u32 = 0 | Self::CODE.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
