@@ -28,8 +28,9 @@ fn run(cli: Cli) -> Result<(), AnyError> {
             let report = render::render(&options, &bar)?;
             bar.finish_and_clear();
             say(format_args!(
-                "{report}\n\nwrote picture.png, reference.png, difference.png and report.json to {}",
-                options.out.display()
+                "{report}\n\nwrote picture.png, reference.png, difference.png (times {}) and report.json to {}",
+                render::AMPLIFICATION,
+                std::path::absolute(&options.out)?.display()
             ))?;
             if let Some(trace) = &options.setup.bus_trace {
                 say(format_args!(

@@ -1,11 +1,12 @@
 //! A bus trace done again; in: its text, out: how many accesses agreed, or the first that did not; cost: the device's cycles.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use lucerna_bus::{Model, ReplayError, TargetError, replay_timed};
 use lucerna_device::Device;
 use lucerna_softfloat::{F24, F32, Format};
 
+use crate::accelerate::bus::TRACE_END;
 use crate::accelerate::memory::HostMemory;
 use crate::accelerate::{Arith, Units};
 use crate::cli::ReplayArgs;
@@ -15,7 +16,7 @@ use crate::format::{HostF24, HostF32};
 #[derive(Debug, thiserror::Error)]
 pub enum TraceError {
     /// The file.
-    #[error("{path} cannot be read: {source}")]
+    #[error("{path} cannot be read as a bus trace: {source}")]
     Read {
         /// Which.
         path: PathBuf,
@@ -24,9 +25,19 @@ pub enum TraceError {
     },
     /// The first line.
     #[error(
-        "{0} does not begin with `# lucerna bus trace: units 4|8|16 format f32|f24 words N`: it says which device to build"
+        "{0} does not begin with `# lucerna bus trace: units 4|8|16 format f32|f24 words N` (N below 2^30): it says which device to build"
     )]
     Header(PathBuf),
+    /// The last line.
+    #[error(
+        "{path} is cut off: its last line does not say `{TRACE_END}{lines}`; trace the run again to its end"
+    )]
+    CutOff {
+        /// Which.
+        path: PathBuf,
+        /// How many lines it has.
+        lines: usize,
+    },
     /// A line.
     #[error("{path}: {error}")]
     Line {
@@ -73,12 +84,20 @@ pub fn run(args: &ReplayArgs) -> Result<String, TraceError> {
     if let Some(units) = args.units {
         header.units = units.into();
     }
+    check_whole(path, &text)?;
     match (header.format.as_str(), args.arith.into()) {
         ("f24", Arith::Fast) => by_units::<HostF24>(args, &header, &text),
         ("f24", Arith::Soft) => by_units::<F24>(args, &header, &text),
         (_, Arith::Fast) => by_units::<HostF32>(args, &header, &text),
         (_, Arith::Soft) => by_units::<F32>(args, &header, &text),
     }
+}
+
+/// A trace that was written to its end says how many lines it has.
+fn check_whole(path: &Path, text: &str) -> Result<(), TraceError> {
+    let lines = text.lines().count().saturating_sub(1);
+    let said = text.lines().last().and_then(|last| last.strip_prefix(TRACE_END)?.trim().parse().ok());
+    if said == Some(lines) { Ok(()) } else { Err(TraceError::CutOff { path: path.to_owned(), lines }) }
 }
 
 fn by_units<F: Format>(args: &ReplayArgs, header: &Header, text: &str) -> Result<String, TraceError> {

@@ -42,6 +42,22 @@
 //! assert_eq!(replay(&text, &mut fresh.bus()).unwrap().accesses, 2);
 //! # Ok::<(), TargetError>(())
 //! ```
+//!
+//! # A modelled Lucerna
+//!
+//! [`Model::bus`], [`Model::delay`] and [`Model::irq`] borrow the model, so it must have a name and outlive them;
+//! `Model::new(…).bus()` in one expression does not compile once the bus is kept. The device's number format and count
+//! of units cannot be inferred and are written out; the memory's type can. With `lucerna_device`, `lucerna_driver` and
+//! `lucerna_softfloat` (this crate depends on none of them):
+//!
+//! ```ignore
+//! let device = Device::<F32, 4, _>::new(vec![0u32; words]);
+//! let model = Model::new(device);
+//! let mut lucerna = Lucerna::probe(model.bus(), model.delay())?;
+//! ```
+//!
+//! Model time advances only by accesses, delays and waits for the pin. The whole program is
+//! `tests/examples/first_job.rs`.
 #![cfg_attr(not(test), no_std)]
 
 mod bus;

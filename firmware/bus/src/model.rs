@@ -30,7 +30,24 @@ pub enum Timing {
 /// Clocks that pass in one poll of a waiting future: short beside a job, long beside a poll's own cost.
 const WAIT_QUANTUM: u64 = 256;
 
-/// A device and its clock, shared by bus, delay and interrupt pin.
+/// A device and its clock, shared by bus, delay and interrupt pin, which borrow it: give it a name.
+///
+/// ```compile_fail,E0716
+/// # use lucerna_bus::{Bus, Model, Target, TargetError};
+/// # fn early(device: impl Target) -> Result<u32, TargetError> {
+/// let mut bus = Model::new(device).bus();
+/// bus.read(0)
+/// # }
+/// ```
+///
+/// ```
+/// # use lucerna_bus::{Bus, Model, Target, TargetError};
+/// # fn named(device: impl Target) -> Result<u32, TargetError> {
+/// let model = Model::new(device);
+/// let mut bus = model.bus();
+/// bus.read(0)
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Model<T> {
     target: RefCell<T>,
@@ -81,7 +98,8 @@ impl<T: Target> Model<T> {
         self
     }
 
-    /// The driver's way to the registers and memory.
+    /// The driver's way to the registers and memory; borrows the model, as [`delay`](Self::delay) and
+    /// [`irq`](Self::irq) do.
     pub const fn bus(&self) -> ModelBus<'_, T> {
         ModelBus(self)
     }

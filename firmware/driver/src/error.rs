@@ -62,11 +62,14 @@ pub enum Cause<E> {
     NotReady,
     /// The layout was made for a device of another number format or with more memory.
     ForeignLayout,
-    /// More elements than the buffer of the layout has.
+    /// `first` and the slice's length lead past the end of the call's buffer: hit points, index table or pixels, as
+    /// its name says, with the count the layout's [`Sizes`](crate::Sizes) give it. Nothing was read or written.
     OutsideBuffer,
-    /// An element refers to a hit point or pixel which the layout does not have.
+    /// An element refers to a hit point or pixel which the layout does not have: a hit point's `pixel` is not below
+    /// [`Sizes::pixels`](crate::Sizes::pixels), or an index entry not below
+    /// [`Sizes::hit_points`](crate::Sizes::hit_points). Nothing was written.
     BadReference {
-        /// The element's place in the slice.
+        /// The element's place in the slice, from 0; its number in the buffer is the call's `first` more.
         position: usize,
     },
     /// The device found an error in the job.
@@ -173,12 +176,15 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
             Cause::ForeignLayout => {
                 f.write_str("the layout is for another device: make it from this one's capabilities")?
             }
-            Cause::OutsideBuffer => {
-                f.write_str("more elements than the buffer has: ask for fewer, or lay out more")?
-            }
-            Cause::BadReference { position } => {
-                write!(f, "element {position} names a hit point or pixel which is not there: correct it")?;
-            }
+            Cause::OutsideBuffer => f.write_str(
+                "`first` plus the slice's length is above this buffer's count in Sizes (hit_points, index_entries \
+                 or pixels): pass fewer, or lay out more",
+            )?,
+            Cause::BadReference { position } => write!(
+                f,
+                "element {position} of the slice, from 0, leads nowhere: a hit point's pixel must be below \
+                 Sizes::pixels, an index entry below Sizes::hit_points"
+            )?,
             Cause::Device(error) => error.fmt(f)?,
             Cause::Timeout => f.write_str("the deadline passed: wait on, or recover")?,
             Cause::LostInterrupt => {

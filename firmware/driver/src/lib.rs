@@ -10,6 +10,9 @@
 //! 4. A run is polled, waited for with a [`Deadline`], or awaited on the interrupt pin.
 //! 5. Every [`Error`] has a cause and a [`State`]; [`Lucerna::recover`] brings the device back from any of them.
 //!
+//! A whole program on a modelled device is `tests/examples/first_job.rs`; run it with
+//! `cargo run --release -p lucerna-tests --example first_job`. One pass of it:
+//!
 //! ```
 //! use embedded_hal::delay::DelayNs;
 //! use lucerna_bus::Bus;
@@ -63,6 +66,64 @@
 //! assert!(UpdateJob::new(&layout, 1.1, Policies::default()).is_err(), "α is a fraction");
 //! # let _ = (update, pass::<Scripted<'_>, NoDelay>);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+//!
+//! # Lists
+//!
+//! The host finds out which hit points are near a photon (commonly by a grid, a list a cell); the device tests them.
+//! All lists lie one behind the other in the index table: entries `p_addr..p_addr + n` are the numbers of the hit
+//! points which a photon is tested against. Photons may share a list, and lists may overlap.
+//!
+//! ```text
+//! index table    0  1 | 1  2 | 2  3        hit points 0 and 1 for the first cell, 1 and 2 for the next, ...
+//! entry          0  1   2  3   4  5        a photon in the second cell: p_addr = 2, n = 2
+//! ```
+//!
+//! `n = 0` says that nothing is near (D9): `p_addr` is not looked at, and the photon belongs to N_emitted all the
+//! same. A hit point takes a photon within its radius, and starts with a
+//! [`radius_squared`](HitPoint::radius_squared) above 0, as photons only shrink it.
+//!
+//! # Ring size
+//!
+//! A photon takes 32 bytes of ring, 48 with the normal test. Once the ring is full, [`Stream::push_all`] waits until a
+//! quarter of it is free, looking after pauses of 1 µs doubling to 1 ms; what is left must keep the device busy
+//! meanwhile. Take 4,096 entries upwards on a host, and 16 to 64 on a small part, where memory is short. A
+//! ring that is too small costs starved cycles ([`Counters::starved_cycles`]), never a photon.
+//!
+//! # Time
+//!
+//! The driver has no clock. A [`Deadline`] is measured by the delay given to [`Lucerna::probe`], or to an async call:
+//! the sum of the pauses, not the time of the accesses. Behind a `lucerna_bus::Model` model time advances only by
+//! accesses and delays: a device whose driver does nothing stands still, and with a delay that is not the model's
+//! ([`delay()`](lucerna_bus::Model::delay)) a wait lets only the clocks of its own looks pass, and soon times out.
+//!
+//! # Dropping a stream or a run
+//!
+//! The job runs on, and the handle knows. [`Lucerna::pree`] and [`Pree::counters`] still work; whatever needs an idle
+//! device (buffers, the next start) fails with [`Cause::NotReady`] and [`State::Running`]. A dropped job cannot be
+//! waited for any more: wait first ([`Run::wait`], [`Run::done`]), or give it up with [`recover`](Lucerna::recover).
+//! A dropped *future* of `done` or `push_all_on` takes nothing away: its run or stream is still there to wait with.
+//!
+//! # Async
+//!
+//! With the interrupt pin as an `embedded_hal_async` `Wait`, nothing is polled but a look every ten milliseconds:
+//!
+//! ```
+//! use embedded_hal::delay::DelayNs;
+//! use embedded_hal_async::{delay::DelayNs as AsyncDelayNs, digital::Wait};
+//! use lucerna_bus::Bus;
+//! use lucerna_driver::{Deadline, Error, Photon, Pree, UpdateJob};
+//!
+//! async fn update<B: Bus, D: DelayNs>(
+//!     pree: &mut Pree<'_, B, D>,
+//!     job: &UpdateJob,
+//!     photons: &[Photon],
+//!     (irq, delay): (&mut impl Wait, &mut impl AsyncDelayNs),
+//! ) -> Result<(), Error<B::Error>> {
+//!     let mut stream = pree.update(job)?;
+//!     stream.push_all_on(photons, irq, delay, Deadline::millis(100)).await?; // for each wait for room
+//!     stream.flush()?.done(irq, delay, Deadline::seconds(1)).await
+//! }
 //! ```
 #![cfg_attr(not(test), no_std)]
 

@@ -2,8 +2,8 @@
 //! run to wait for. Cost: 25 register writes a job.
 //!
 //! The handle is borrowed by what it starts, so no second job can be started, and no buffer read or written,
-//! while one runs. A run that is dropped goes on in the device: the handle remembers, and asks for
-//! [`recover`](Pree::recover).
+//! while one runs. A stream or run that is dropped goes on in the device: the handle remembers, and until
+//! [`recover`](Pree::recover) refuses with [`Cause::NotReady`].
 
 use embedded_hal::delay::DelayNs;
 use lucerna_bus::Bus;

@@ -48,9 +48,9 @@ pub struct Photon {
     pub normal: [f32; 3],
     /// Its flux.
     pub flux: [f32; 3],
-    /// Where its list of hit points begins in the index table: the number of the first entry.
+    /// Where its list begins in the index table: entries `p_addr..p_addr + n` name the hit points to test.
     pub p_addr: u32,
-    /// Entries in its list; 0 for an empty cell (D9).
+    /// Entries in its list; 0 for an empty cell (D9), where `p_addr` means nothing.
     pub n: u32,
 }
 
@@ -98,7 +98,7 @@ pub struct HitPoint {
     pub colour: [f32; 3],
     /// Accumulated flux, τ.
     pub flux: [f32; 3],
-    /// The radius squared, R².
+    /// The radius squared, R²: above 0 at first; every photon taken shrinks it.
     pub radius_squared: f32,
     /// Accumulated photons, N + αM (D14).
     pub photons: f32,

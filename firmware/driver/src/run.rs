@@ -8,8 +8,11 @@ use lucerna_bus::Bus;
 use crate::{Counters, Deadline, Error, Lucerna, Progress};
 
 /// A running job which needs nothing more: evaluation, or an update that was flushed.
+///
+/// If it is dropped before it was seen to be done, the job runs on, but nobody can wait for it any more: nothing else
+/// can be started ([`Cause::NotReady`](crate::Cause::NotReady)) until [`Lucerna::recover`] gives it up.
 #[derive(Debug)]
-#[must_use = "the job runs until it is waited for"]
+#[must_use = "dropped, the job runs on and the next start fails with NotReady: wait for it or abort it"]
 pub struct Run<'a, B, D> {
     device: &'a mut Lucerna<B, D>,
 }

@@ -101,8 +101,11 @@ impl Ring {
 }
 
 /// A running update job which takes photons until it is flushed.
+///
+/// If it is dropped, the job runs on without an end: nothing else can be started ([`Cause::NotReady`]) until
+/// [`Lucerna::recover`] gives it up.
 #[derive(Debug)]
-#[must_use = "the job runs until it is flushed and waited for"]
+#[must_use = "dropped, the job runs on and the next start fails with NotReady: finish, flush or abort it"]
 pub struct Stream<'a, B, D> {
     device: &'a mut Lucerna<B, D>,
     ring: Ring,
@@ -142,7 +145,8 @@ impl<'a, B: Bus, D: DelayNs> Stream<'a, B, D> {
         Ok(room)
     }
 
-    /// Puts all photons into the ring and waits for room as often as needed, `deadline` in all.
+    /// Puts all photons into the ring and waits for room as often as needed, `deadline` in all. Once the ring is
+    /// full it waits until a quarter is free: the crate's front page says how large to make it.
     ///
     /// After an error, [`pushed`](Self::pushed) tells how many the device has been given in all.
     pub fn push_all(&mut self, photons: &[Photon], deadline: Deadline) -> Result<(), Error<B::Error>> {

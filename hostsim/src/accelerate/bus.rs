@@ -12,7 +12,11 @@ use lucerna_bus::{Bus, SharedSink, Traced, TracedDelay};
 #[derive(Debug)]
 pub struct TraceFile {
     file: BufWriter<File>,
+    lines: u64,
 }
+
+/// What the last line of a whole trace begins with; the number of lines before it follows.
+pub const TRACE_END: &str = "# end of trace, lines: ";
 
 impl TraceFile {
     /// Creates the file and writes what a replay has to know first.
@@ -22,20 +26,22 @@ impl TraceFile {
     pub fn create(path: &Path, header: &str) -> io::Result<Self> {
         let mut file = BufWriter::with_capacity(1 << 20, File::create(path)?);
         writeln!(file, "# {header}")?;
-        Ok(Self { file })
+        Ok(Self { file, lines: 1 })
     }
 
-    /// Writes out what is buffered.
+    /// Writes the last line, without which a replay takes the trace for cut off, and all that is buffered.
     ///
     /// # Errors
     /// Whatever the file system says.
     pub fn finish(mut self) -> io::Result<()> {
+        writeln!(self.file, "{TRACE_END}{}", self.lines)?;
         self.file.flush()
     }
 }
 
 impl core::fmt::Write for TraceFile {
     fn write_str(&mut self, text: &str) -> core::fmt::Result {
+        self.lines += text.bytes().filter(|byte| *byte == b'\n').count() as u64;
         self.file.write_all(text.as_bytes()).map_err(|_| core::fmt::Error)
     }
 }

@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use lucerna_bus::{Bus, Model, TargetError};
@@ -88,9 +89,14 @@ pub enum RunError {
     Bus(TargetError),
     /// The trace's file.
     #[error(
-        "the bus trace cannot be written: {0}; name a file on a disk with room, or leave --bus-trace away"
+        "the bus trace {path} cannot be written: {source}; name a file in a folder that is there, on a disk with room"
     )]
-    Trace(#[from] io::Error),
+    Trace {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
 }
 
 /// Builds the device that `setup` names and runs the workload on it.
@@ -139,18 +145,18 @@ fn on_device<F: Format, const N: usize>(
     let device: Device<F, N, _> = Device::new(HostMemory::new(words));
     let model = Model::new(device).with_timing(setup.timing);
     let header = header(setup, words);
-    let trace = match &setup.bus_trace {
-        None => None,
-        Some(path) => Some(RefCell::new(TraceFile::create(path, &header)?)),
-    };
+    let path = setup.bus_trace.as_deref();
+    let failed = |source| RunError::Trace { path: path.unwrap_or(Path::new("")).to_owned(), source };
+    let trace =
+        path.map(|path| TraceFile::create(path, &header).map(RefCell::new)).transpose().map_err(failed)?;
     let mut bus = MaybeTraced::new(model.bus(), trace.as_ref());
     let delay = MaybeTracedDelay::new(model.delay(), trace.as_ref());
     let outcome = drive(&mut bus, delay, sizes, setup, workload, source)?;
     if bus.lost() > 0 {
-        return Err(io::Error::other(format!("{} lines were not taken", bus.lost())).into());
+        return Err(failed(io::Error::other(format!("{} lines were not taken", bus.lost()))));
     }
     if let Some(trace) = trace {
-        trace.into_inner().finish()?;
+        trace.into_inner().finish().map_err(failed)?;
     }
     Ok(outcome)
 }

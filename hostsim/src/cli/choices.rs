@@ -132,14 +132,14 @@ pub struct Size {
 }
 
 /// The longest side of a picture: its hit points still fit 32-bit addresses at a few a pixel.
-const LONGEST: u32 = 8192;
+const LONGEST: u32 = 4096;
 
 impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let form = || format!("write WIDTHxHEIGHT, each 1 to {LONGEST}, for example 320x240");
-        let (width, height) = text.split_once('x').ok_or_else(form)?;
+        let (width, height) = text.split_once(['x', 'X']).ok_or_else(form)?;
         let side =
             |text: &str| text.parse().ok().filter(|side| (1..=LONGEST).contains(side)).ok_or_else(form);
         Ok(Self { width: side(width)?, height: side(height)? })
@@ -152,7 +152,9 @@ mod tests {
 
     #[test]
     fn sizes_are_read_or_explained() {
-        assert_eq!("320x240".parse(), Ok(Size { width: 320, height: 240 }));
+        for good in ["320x240", "320X240"] {
+            assert_eq!(good.parse(), Ok(Size { width: 320, height: 240 }));
+        }
         for bad in ["", "320", "0x3", "3x0", "axb", "9999x1", "1x1x1", "-1x2"] {
             assert!(bad.parse::<Size>().unwrap_err().contains("WIDTHxHEIGHT"), "{bad}");
         }

@@ -37,7 +37,7 @@ pub enum Command {
     Replay(ReplayArgs),
     /// Build the firmware and print flash, RAM and deepest stack frame a crate, held to their budgets.
     Size,
-    /// Write the firmware's job file from the 20x15 workload.
+    /// For maintainers: write the firmware's job file from the 20x15 workload.
     Fixture {
         /// Where to.
         #[arg(default_value = "fixtures/cornell-balls-20x15.lcn")]
@@ -78,7 +78,7 @@ pub struct ReplayArgs {
 /// What to render, and on what device.
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// A built-in scene (cornell-balls, cornell-teapot), a scene's TOML file, or an OBJ file.
+    /// A built-in scene (cornell-balls, cornell-teapot; with --mesh: sibenik, conference), a TOML file, or an OBJ file.
     #[arg(default_value = "cornell-balls")]
     pub scene: String,
     /// The OBJ file of a scene that leaves its mesh to you.
@@ -88,7 +88,7 @@ pub struct RenderArgs {
     #[arg(long, default_value = "320x240")]
     pub size: Size,
     /// Photons emitted; ten a pixel when not given.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1 << 31))]
+    #[arg(long, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1 << 31))]
     pub photons: Option<u32>,
     /// PREUs.
     #[arg(long, default_value = "4")]
@@ -120,7 +120,7 @@ pub struct RenderArgs {
     /// The order of evaluation: ADISO-REC's, or the one of Figs. 3 and 4.
     #[arg(long, default_value = "leaping")]
     pub allocation: AllocationChoice,
-    /// Write every bus access into this file; `hostsim replay` does them again.
+    /// Write every bus access into this file (270 MB at the default size); `replay` does them again.
     #[arg(long)]
     pub bus_trace: Option<PathBuf>,
     /// Directory of the results; out/SCENE when not given.
@@ -168,6 +168,14 @@ impl RenderArgs {
             out: self.out.unwrap_or_else(|| PathBuf::from("out").join(stem)),
             scene: self.scene,
         })
+    }
+}
+
+/// Says what is being done: on the bar, or as a line where there is none to be seen.
+pub fn announce(bar: &ProgressBar, what: &'static str) {
+    bar.set_message(what);
+    if bar.is_hidden() {
+        eprintln!("{what} …");
     }
 }
 

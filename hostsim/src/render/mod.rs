@@ -114,7 +114,7 @@ pub fn render(options: &Options, bar: &ProgressBar) -> Result<Report, RenderErro
     bar.set_message("eye rays");
     let prepared = Prepared::new(&options.scene, options.mesh.clone(), options.width, options.height)?;
     for note in prepared.scene.notes() {
-        bar.println(format!("note: {note}"));
+        bar.suspend(|| eprintln!("note: {note}"));
     }
     let workload = prepared.workload(options.width * options.height, options.photons);
     let mut judge = Judge::new(&prepared, &options.setup);
@@ -131,7 +131,7 @@ pub fn render(options: &Options, bar: &ProgressBar) -> Result<Report, RenderErro
 }
 
 /// How much brighter the difference picture is than the difference.
-const AMPLIFICATION: u8 = 16;
+pub const AMPLIFICATION: u8 = 16;
 
 fn write_pictures(
     options: &Options,

@@ -8,6 +8,7 @@ use lucerna_driver::{Allocation, Busy, Hazard, InputWidth, Policies, Scheduler};
 
 use super::table::Figures;
 use crate::accelerate::{self, Outcome, PhotonSource, RunError, Setup, Units};
+use crate::cli::announce;
 use crate::oracle::Reference;
 use crate::picture;
 use crate::render::photons::CHUNK;
@@ -81,10 +82,10 @@ pub fn run(full: bool, out: &Path, bar: &ProgressBar) -> Result<Figures, RenderE
     let mut figures = Figures::default();
     bar.set_length(16 + u64::from(full));
 
-    bar.set_message("20x15");
+    announce(bar, "20x15");
     let small = Recorded::new(20, 15, 1_000)?;
     let chip = small.run(Units::Four, |_| {})?;
-    bar.set_message("320x240");
+    announce(bar, "320x240");
     let large = Recorded::new(320, 240, 768_000)?;
     let published = large.run(Units::Four, |_| {})?;
     bar.inc(2);
@@ -93,7 +94,7 @@ pub fn run(full: bool, out: &Path, bar: &ProgressBar) -> Result<Figures, RenderE
     damage(&mut figures, &large, &published, out, bar)?;
     table_ii(&mut figures, &large, &published, bar)?;
     table_iii(&mut figures, &chip);
-    bar.set_message("f64 loops");
+    announce(bar, "f64 loops");
     let protected = large.run(Units::Four, |policies| policies.hazard = Hazard::Interlock)?;
     let small_protected = small.run(Units::Four, |policies| policies.hazard = Hazard::Interlock)?;
     let (interlocked, stale) = (
@@ -137,7 +138,7 @@ fn operations(
         format!("{count}, by the device's counter"),
     );
     if full {
-        bar.set_message("1600x1200");
+        announce(bar, "1600x1200");
         let prepared = Prepared::new("cornell-balls", None, 1600, 1200)?;
         let mut hits = Vec::new();
         let count: u64 = chunks(19_200_000, CHUNK)
@@ -167,13 +168,13 @@ fn damage(
     out: &Path,
     bar: &ProgressBar,
 ) -> Result<(), RenderError> {
-    bar.set_message("Fig. 4");
+    announce(bar, "Fig. 4");
     let sequential = large.run(Units::Four, |policies| policies.allocation = Allocation::Sequential)?;
     let picture = large.picture(&sequential)?;
     let leaping_picture = large.picture(leaping)?;
     picture::save(&picture, &out.join("fig4-sequential.png"))?;
     picture::save(&leaping_picture, &out.join("fig4-leaping.png"))?;
-    picture::save(&picture::difference(&picture, &leaping_picture, 1)?, &out.join("fig4-difference.png"))?;
+    picture::save(&picture::difference(&picture, &leaping_picture, 4)?, &out.join("fig4-difference.png"))?;
     let visible = picture.pixels().zip(leaping_picture.pixels()).filter(|(a, b)| a != b).count();
     figures.add(
         "Fig. 4, sequential allocation: pixel conflicts",
@@ -202,7 +203,7 @@ fn table_ii(
     four: &Outcome,
     bar: &ProgressBar,
 ) -> Result<(), RenderError> {
-    bar.set_message("Table II");
+    announce(bar, "Table II");
     let rules: [(&str, Busy, InputWidth); 3] = [
         ("one photon a cycle, busy registered", Busy::Registered, InputWidth::One),
         ("one photon a cycle, busy combinational", Busy::Combinational, InputWidth::One),

@@ -7,6 +7,7 @@
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!("this is a Cortex-M program: add --target thumbv7em-none-eabihf --profile firmware");
+    std::process::exit(2);
 }
 
 #[cfg(target_os = "none")]
@@ -77,7 +78,9 @@ mod program {
             }
             Err(error) => {
                 defmt::error!("{}", error);
-                failure(&["no picture: the log says why"]);
+                failure(&[
+                    "no picture: nothing answers at 0x40028000 (QEMU has no device there), or the job failed; the defmt log on UART1 says which",
+                ]);
             }
         }
     }

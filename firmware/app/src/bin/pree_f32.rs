@@ -11,4 +11,5 @@ fn main() -> ! {
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!("this is a Cortex-M program: add --target thumbv7em-none-eabihf --profile firmware");
+    std::process::exit(2);
 }

@@ -29,7 +29,7 @@ impl Control {
     pub const CLEAR: Field = Field { name: "CLEAR", shift: 1, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::SNAPSHOT.mask() | Self::CLEAR.mask();
+    pub const MASK: u32 = Self::SNAPSHOT.mask() | Self::CLEAR.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {

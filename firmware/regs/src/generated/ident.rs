@@ -99,7 +99,7 @@ impl Version {
     pub const MAJOR: Field = Field { name: "MAJOR", shift: 16, width: 16 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::MINOR.mask() | Self::MAJOR.mask();
+    pub const MASK: u32 = Self::MINOR.mask() | Self::MAJOR.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -184,7 +184,7 @@ impl Capabilities {
 
     /// The bits that belong to a field: a write to the others is ignored.
     pub const MASK: u32 =
-        0 | Self::PREUS.mask() | Self::FORMAT.mask() | Self::BUFFER_ENTRIES.mask() | Self::UNITS.mask();
+        Self::PREUS.mask() | Self::FORMAT.mask() | Self::BUFFER_ENTRIES.mask() | Self::UNITS.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -302,7 +302,7 @@ impl Pipeline {
 
     /// The bits that belong to a field: a write to the others is ignored.
     pub const MASK: u32 =
-        0 | Self::UPDATE_STAGES.mask() | Self::EVALUATE_STAGES.mask() | Self::OPERAND_LATENCY.mask();
+        Self::UPDATE_STAGES.mask() | Self::EVALUATE_STAGES.mask() | Self::OPERAND_LATENCY.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {

@@ -36,7 +36,7 @@ impl Status {
     pub const RING_SPACE: Field = Field { name: "RING_SPACE", shift: 2, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
+    pub const MASK: u32 = Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -134,7 +134,7 @@ impl Enable {
     pub const RING_SPACE: Field = Field { name: "RING_SPACE", shift: 2, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
+    pub const MASK: u32 = Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {

@@ -565,7 +565,7 @@ impl Control {
     pub const ABORT: Field = Field { name: "ABORT", shift: 2, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::START.mask() | Self::FLUSH.mask() | Self::ABORT.mask();
+    pub const MASK: u32 = Self::START.mask() | Self::FLUSH.mask() | Self::ABORT.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -683,8 +683,7 @@ impl Config {
     pub const ALLOCATION: Field = Field { name: "ALLOCATION", shift: 9, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0
-        | Self::MODE.mask()
+    pub const MASK: u32 = Self::MODE.mask()
         | Self::NORMAL_TEST.mask()
         | Self::HAZARD.mask()
         | Self::BUSY.mask()
@@ -854,7 +853,7 @@ impl Status {
     pub const FLUSHING: Field = Field { name: "FLUSHING", shift: 3, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::STATE.mask() | Self::STARVED.mask() | Self::FLUSHING.mask();
+    pub const MASK: u32 = Self::STATE.mask() | Self::STARVED.mask() | Self::FLUSHING.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -952,7 +951,7 @@ impl Error {
     pub const CODE: Field = Field { name: "CODE", shift: 0, width: 8 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = 0 | Self::CODE.mask();
+    pub const MASK: u32 = Self::CODE.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
