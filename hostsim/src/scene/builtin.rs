@@ -20,3 +20,29 @@ pub(super) fn text(name: &str) -> Option<&'static str> {
 pub(super) fn takes_mesh(name: &str) -> bool {
     matches!(name, "sibenik" | "conference")
 }
+
+/// The built-in name a misspelt one probably means: its beginning, or at most a third of the letters away.
+pub(super) fn nearest(name: &str) -> Option<&'static str> {
+    let asked = name.to_lowercase();
+    let begins = |n: &&str| asked.len() >= 3 && n.starts_with(&asked);
+    let close = || {
+        let ranked = builtin_names().into_iter().map(|n| (distance(&asked, n), n));
+        ranked.min().filter(|(d, n)| 3 * d <= n.len()).map(|(_, n)| n)
+    };
+    builtin_names().into_iter().find(begins).or_else(close)
+}
+
+/// Levenshtein's: how many letters must be put in, left out or changed.
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.chars().enumerate() {
+            let changed = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = changed.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.chars().count()]
+}

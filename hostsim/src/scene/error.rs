@@ -6,10 +6,35 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// Neither built in nor a file this program reads.
-    #[error("there is no scene `{name}`: give one of {builtin}, or the path of a .toml or .obj file")]
+    #[error("there is no scene `{name}`{}: give one of {builtin}, or the path of a .toml or .obj file",
+        nearest.map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default())]
     UnknownScene {
         /// What was asked for.
         name: String,
+        /// The built-in name most like it.
+        nearest: Option<&'static str>,
+        /// What there is.
+        builtin: String,
+    },
+    /// A folder where a file should be.
+    #[error("{} is a folder, not a scene: give the path of a .toml or .obj file in it, or one of {builtin}", path.display())]
+    Folder {
+        /// Which.
+        path: PathBuf,
+        /// What there is.
+        builtin: String,
+    },
+    /// A kind of file this program does not read.
+    #[error(
+        "{}: a scene is a .toml or an .obj file, and .{extension} files cannot be read; export the model as Wavefront OBJ, \
+         or give one of {builtin}",
+        path.display()
+    )]
+    Extension {
+        /// Which file.
+        path: PathBuf,
+        /// How its name ends.
+        extension: String,
         /// What there is.
         builtin: String,
     },
@@ -22,12 +47,21 @@ pub enum SceneError {
         why: String,
     },
     /// The scene file is not as it should be.
-    #[error("scene `{scene}` is not a valid scene file:\n{why}")]
+    #[error("scene `{scene}` is not a valid scene file (docs/scenes.md describes the format):\n{why}")]
     Syntax {
         /// Which scene.
         scene: String,
         /// The parser's words, with the line.
         why: String,
+    },
+    /// A scene file without an entry.
+    #[error(
+        "scene `{scene}` is an empty file: it needs at least [camera], [light] and something to look at; \
+         fixtures/scenes/cornell-balls.toml is an example, docs/scenes.md describes the format"
+    )]
+    Empty {
+        /// Which scene.
+        scene: String,
     },
     /// A value makes no sense.
     #[error("scene `{scene}`, {place}: {why}")]
@@ -55,7 +89,7 @@ pub enum SceneError {
     },
     /// The scene's mesh is not there.
     #[error(
-        "scene `{scene}` needs the mesh {}, which is not there: put the file there, or name one with --mesh FILE.obj \
+        "scene `{scene}` needs the mesh {}, which is not there or is no file: put the file there, or name one with --mesh FILE.obj \
          (or render the .obj file itself)",
         path.display()
     )]
@@ -64,6 +98,24 @@ pub enum SceneError {
         scene: String,
         /// Where it was looked for.
         path: PathBuf,
+    },
+    /// A mesh was given for a scene which is one.
+    #[error("{}: the scene is already a mesh: leave --mesh away, or render that file itself", path.display())]
+    AlreadyMesh {
+        /// The scene.
+        path: PathBuf,
+    },
+    /// A mesh was given for a scene which has no place for one.
+    #[error(
+        "scene `{scene}` names no mesh, so {} has no place in it: leave --mesh away, render the .obj file itself, \
+         or add a line mesh = \"FILE.obj\" to a scene file of your own",
+        mesh.display()
+    )]
+    NoPlaceForMesh {
+        /// Which scene.
+        scene: String,
+        /// The mesh given.
+        mesh: PathBuf,
     },
     /// The mesh file is damaged.
     #[error("{} is not an OBJ file this program can read: {why}", path.display())]

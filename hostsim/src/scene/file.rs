@@ -114,6 +114,9 @@ fn fine() -> u32 {
 
 impl SceneFile {
     pub fn parse(text: &str, scene: &str) -> Result<Self, SceneError> {
+        if text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
+            return Err(SceneError::Empty { scene: scene.to_owned() });
+        }
         toml::from_str(text).map_err(|e| SceneError::Syntax {
             scene: scene.to_owned(),
             why: e.to_string().trim_end().to_owned(),
@@ -121,6 +124,9 @@ impl SceneFile {
     }
 
     pub fn build(self, scene: &str, folder: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
+        if let (Some(mesh), None) = (&options.mesh, &self.mesh) {
+            return Err(SceneError::NoPlaceForMesh { scene: scene.to_owned(), mesh: mesh.clone() });
+        }
         let check = Check { scene };
         let camera = self.camera.build(&check)?;
         let light = Light {
@@ -168,7 +174,7 @@ impl SceneFile {
             let loaded = mesh::load(&path)?;
             triangles = loaded.triangles;
             palette = loaded.materials;
-            notes.extend(loaded.notes.lines());
+            notes.extend(loaded.notes.lines(&mesh::file_name(&path)));
         }
         for (i, entry) in self.objects.iter().enumerate() {
             let place = format!("[[objects]] number {}", i + 1);

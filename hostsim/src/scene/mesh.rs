@@ -1,54 +1,38 @@
-//! In: an OBJ file and, beside it, its MTL file. Out: triangles, materials, and what was left out.
+//! In: an OBJ file and, beside it, its MTL files. Out: triangles, materials, and what was left out.
 //! Cost: linear in the file.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::bvh::Triangle;
+use super::materials::{GREY, MaterialNotes};
 use super::{Material, SceneError, Vec3};
 
 /// A mesh may have this many triangles: the tree's numbers are 32-bit.
 pub const MAX_TRIANGLES: usize = 1 << 28;
 
-/// What takes the place of a material that is not there.
-pub(super) const GREY: Material = Material::Diffuse { colour: Vec3::splat(0.7) };
-
 /// What a user should know about a mesh.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct MeshNotes {
+#[derive(Debug, Default)]
+pub(super) struct MeshNotes {
     /// Triangles without an area.
-    pub degenerate: usize,
-    /// Triangles whose material is named nowhere.
-    pub without_material: usize,
-    /// Why the MTL file could not be used.
-    pub no_materials: Option<String>,
-    /// Materials with pictures, which are not looked at.
-    pub textured: BTreeSet<String>,
-    /// Transparent materials that do not refract, taken as diffuse.
-    pub thin: BTreeSet<String>,
+    degenerate: usize,
+    materials: MaterialNotes,
 }
 
 impl MeshNotes {
-    /// As lines for a reader.
-    pub fn lines(&self) -> Vec<String> {
-        let list = |set: &BTreeSet<String>| set.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
-        let mut lines = Vec::new();
-        if let Some(why) = &self.no_materials {
-            lines.push(format!("{why}: every surface is grey"));
-        } else if self.without_material > 0 {
-            lines.push(format!("{} triangles name no known material: they are grey", self.without_material));
-        }
+    /// As lines for a reader, each beginning with the file's name.
+    pub fn lines(&self, file: &str) -> Vec<String> {
+        let mut lines = self.materials.lines();
         if self.degenerate > 0 {
             lines.push(format!("{} triangles without an area are left out", self.degenerate));
         }
-        if !self.textured.is_empty() {
-            lines.push(format!("textures are ignored, the plain colour is used: {}", list(&self.textured)));
-        }
-        if !self.thin.is_empty() {
-            lines.push(format!("transparent without refraction, taken as diffuse: {}", list(&self.thin)));
-        }
-        lines
+        lines.iter().map(|line| format!("{file}: {line}")).collect()
     }
+}
+
+/// How notes call a file.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 pub(super) struct Mesh {
@@ -61,8 +45,7 @@ pub(super) struct Mesh {
 /// Reads an OBJ file. Polygons become fans; negative indices and missing normals are as the format allows.
 pub(super) fn load(path: &Path) -> Result<Mesh, SceneError> {
     let bad = |why: String| SceneError::BadMesh { path: path.to_owned(), why };
-    // The library does not tell a missing file from a damaged one.
-    std::fs::File::open(path)
+    let bytes = std::fs::read(path)
         .map_err(|e| SceneError::Unreadable { path: path.to_owned(), why: e.to_string() })?;
     let options = tobj::LoadOptions {
         triangulate: true,
@@ -70,16 +53,21 @@ pub(super) fn load(path: &Path) -> Result<Mesh, SceneError> {
         ignore_lines: true,
         ..Default::default()
     };
-    let (models, loaded) = tobj::load_obj(path, &options).map_err(|e| bad(explain(e)))?;
-
     let mut notes = MeshNotes::default();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let (models, loaded) = tobj::load_obj_buf(&mut bytes.as_slice(), &options, |line| {
+        notes.materials.libraries.load(folder, line)
+    })
+    .map_err(|e| bad(explain(e)))?;
+
+    // The MTL loader never fails: what it cannot read is in its notes.
+    let loaded = loaded.unwrap_or_default();
+    notes.materials.any = !loaded.is_empty();
+    notes.materials.unknown = used_names(&bytes);
     let mut materials = vec![GREY];
-    match loaded {
-        Ok(list) if list.is_empty() => {
-            notes.no_materials = Some("the OBJ file names no MTL file, or an empty one".to_owned());
-        }
-        Ok(list) => materials.extend(list.iter().map(|m| material(m, &mut notes))),
-        Err(e) => notes.no_materials = Some(format!("the MTL file cannot be read ({e})")),
+    for m in &loaded {
+        notes.materials.unknown.remove(&m.name);
+        materials.push(notes.materials.material(m));
     }
 
     let mut triangles = Vec::new();
@@ -104,7 +92,7 @@ pub(super) fn load(path: &Path) -> Result<Mesh, SceneError> {
                 notes.degenerate += 1;
                 continue;
             }
-            notes.without_material += usize::from(!known);
+            notes.materials.grey_triangles += usize::from(!known);
             triangles.push(triangle);
         }
     }
@@ -123,31 +111,11 @@ impl Vec3 {
     }
 }
 
-/// Illumination models 3 and 5 are mirrors, 4, 6, 7 and 9 glass (when it refracts); all others diffuse.
-fn material(m: &tobj::Material, notes: &mut MeshNotes) -> Material {
-    if m.diffuse_texture.is_some() || m.dissolve_texture.is_some() {
-        notes.textured.insert(m.name.clone());
-    }
-    // Reflectances above one would make light out of nothing.
-    let colour = |c: Option<[f64; 3]>, otherwise: f64| {
-        let c =
-            c.unwrap_or([otherwise; 3]).map(|v| if v.is_finite() { v.clamp(0.0, 1.0) } else { otherwise });
-        Vec3::from(c)
-    };
-    let index = m.optical_density.unwrap_or(1.0);
-    match m.illumination_model {
-        Some(3 | 5) if colour(m.specular, 0.0).largest() > 0.25 => {
-            Material::Mirror { colour: colour(m.specular, 1.0) }
-        }
-        Some(4 | 6 | 7 | 9) if index.is_finite() && index > 1.0 => {
-            Material::Glass { colour: Vec3::ONE, index }
-        }
-        Some(4 | 6 | 7 | 9) => {
-            notes.thin.insert(m.name.clone());
-            Material::Diffuse { colour: colour(m.diffuse, 0.7) }
-        }
-        _ => Material::Diffuse { colour: colour(m.diffuse, 0.7) },
-    }
+/// The names in `usemtl` lines: the library does not tell which of them it did not find.
+fn used_names(obj: &[u8]) -> BTreeSet<String> {
+    let lines = obj.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
+    let names = lines.filter_map(|line| line.strip_prefix(b"usemtl")).map(<[u8]>::trim_ascii);
+    names.map(|name| String::from_utf8_lossy(name).into_owned()).collect()
 }
 
 fn explain(e: tobj::LoadError) -> String {

@@ -7,6 +7,7 @@ mod camera;
 mod error;
 mod file;
 mod frame;
+mod materials;
 mod mesh;
 mod shapes;
 mod teapot;
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 pub use builtin::builtin_names;
 pub use camera::Camera;
 pub use error::SceneError;
-pub use mesh::{MAX_TRIANGLES, MeshNotes};
+pub use mesh::MAX_TRIANGLES;
 pub use vec3::Vec3;
 
 use bvh::TriangleSet;
@@ -93,7 +94,7 @@ pub struct Hit {
 /// What may be said beside the scene's name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
-    /// An OBJ file in place of the one the scene file names in `mesh`.
+    /// An OBJ file in place of the one the scene file names in `mesh`; an error for a scene without such a line.
     pub mesh: Option<PathBuf>,
 }
 
@@ -119,22 +120,41 @@ impl Scene {
             return Self::from_toml(text, name, Path::new(""), options);
         }
         let path = Path::new(name);
+        let builtin = || builtin_names().join(", ");
+        if path.is_dir() {
+            return Err(SceneError::Folder { path: path.to_owned(), builtin: builtin() });
+        }
         let stem = path.file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
-        match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        match path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).as_deref() {
             Some("toml") => {
                 let text = std::fs::read_to_string(path)
                     .map_err(|e| SceneError::Unreadable { path: path.to_owned(), why: e.to_string() })?;
                 Self::from_toml(&text, &stem, path.parent().unwrap_or(Path::new("")), options)
             }
+            Some("obj") if options.mesh.is_some() => Err(SceneError::AlreadyMesh { path: path.to_owned() }),
             Some("obj") => match builtin::text(&stem).filter(|_| builtin::takes_mesh(&stem)) {
                 // The layout of these two models is known, so their cameras are better than any guess.
-                Some(text) => {
+                Some(text) if path.is_file() => {
                     let options = LoadOptions { mesh: Some(path.to_owned()) };
-                    Self::from_toml(text, &stem, Path::new(""), &options)
+                    let mut scene = Self::from_toml(text, &stem, Path::new(""), &options)?;
+                    let file = mesh::file_name(path);
+                    scene
+                        .notes
+                        .push(format!("{file}: camera and light are those of the built-in scene `{stem}`"));
+                    Ok(scene)
                 }
-                None => frame::from_obj(path, &stem),
+                _ => frame::from_obj(path, &stem),
             },
-            _ => Err(SceneError::UnknownScene { name: name.to_owned(), builtin: builtin_names().join(", ") }),
+            Some(extension) => Err(SceneError::Extension {
+                path: path.to_owned(),
+                extension: extension.to_owned(),
+                builtin: builtin(),
+            }),
+            None => Err(SceneError::UnknownScene {
+                name: name.to_owned(),
+                nearest: builtin::nearest(name),
+                builtin: builtin(),
+            }),
         }
     }
 
@@ -169,7 +189,7 @@ impl Scene {
         &self.name
     }
 
-    /// What a user should know: a missing MTL file, textures left out, triangles dropped.
+    /// What a user should know: materials not found, textures left out, triangles dropped, a camera guessed.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
