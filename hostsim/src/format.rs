@@ -6,6 +6,48 @@
 
 use lucerna_softfloat::{F24, F32, Format, FormatCode};
 
+/// The operations of [`Format`] on a host number in `self.0`, each result through `$finish`.
+macro_rules! host_arithmetic {
+    ($finish:expr) => {
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            $finish(self.0 + other.0)
+        }
+        #[inline(always)]
+        fn sub(self, other: Self) -> Self {
+            $finish(self.0 - other.0)
+        }
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            $finish(self.0 * other.0)
+        }
+        #[inline(always)]
+        fn div(self, other: Self) -> Self {
+            $finish(self.0 / other.0)
+        }
+        #[inline(always)]
+        fn square(self) -> Self {
+            $finish(self.0 * self.0)
+        }
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            $finish(self.0.sqrt())
+        }
+        #[inline(always)]
+        fn lt(self, other: Self) -> bool {
+            self.0 < other.0
+        }
+        #[inline(always)]
+        fn le(self, other: Self) -> bool {
+            self.0 <= other.0
+        }
+        #[inline(always)]
+        fn eq(self, other: Self) -> bool {
+            self.0 == other.0
+        }
+    };
+}
+
 /// The host's f32, its NaN made canonical where bits leave it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HostF32(f32);
@@ -13,6 +55,7 @@ pub struct HostF32(f32);
 impl Format for HostF32 {
     const NAME: &'static str = "f32";
     const CODE: FormatCode = FormatCode::F32;
+    const COSTLY: bool = false;
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
 
@@ -30,42 +73,7 @@ impl Format for HostF32 {
     fn to_f32(self) -> f32 {
         self.0
     }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self(self.0 / other.0)
-    }
-    #[inline(always)]
-    fn square(self) -> Self {
-        Self(self.0 * self.0)
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self.0 < other.0
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self.0 <= other.0
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> bool {
-        self.0 == other.0
-    }
+    host_arithmetic!(Self);
 }
 
 /// A number of the 1-7-16 format, held as the f64 of the same value.
@@ -93,10 +101,10 @@ fn rounded(x: f64) -> HostF24 {
         let nearest = f64::from_bits((bits + to_even) >> SPARE << SPARE);
         return HostF24(if nearest.abs() >= OVERFLOW { f64::INFINITY.copysign(x) } else { nearest });
     }
-    rounded_rare(x)
+    if x == 0.0 { HostF24(x) } else { rounded_rare(x) }
 }
 
-/// Zeros, subnormals, infinities, NaN.
+/// Subnormals, infinities, NaN.
 #[cold]
 fn rounded_rare(x: f64) -> HostF24 {
     HostF24(if x.is_nan() {
@@ -113,12 +121,16 @@ fn rounded_rare(x: f64) -> HostF24 {
 impl Format for HostF24 {
     const NAME: &'static str = "f24";
     const CODE: FormatCode = FormatCode::F24;
+    const COSTLY: bool = false;
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
 
     #[inline(always)]
     fn from_bits(bits: u32) -> Self {
         let (exponent, fraction) = (bits >> 16 & 0x7f, bits & 0xffff);
+        if bits & 0x7f_ffff == 0 {
+            return Self(if bits & 0x80_0000 == 0 { 0.0 } else { -0.0 });
+        }
         if exponent == 0 || exponent == 0x7f {
             return Self(F24::from_bits(bits).to_f64());
         }
@@ -141,42 +153,7 @@ impl Format for HostF24 {
     fn to_f32(self) -> f32 {
         self.0 as f32
     }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        rounded(self.0 + other.0)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        rounded(self.0 - other.0)
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        rounded(self.0 * other.0)
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        rounded(self.0 / other.0)
-    }
-    #[inline(always)]
-    fn square(self) -> Self {
-        rounded(self.0 * self.0)
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        rounded(self.0.sqrt())
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self.0 < other.0
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self.0 <= other.0
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> bool {
-        self.0 == other.0
-    }
+    host_arithmetic!(rounded);
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::Fault;
 use crate::preu;
-use crate::record::{Accumulated, HIT_WORDS, INDEX_WORDS, Surface};
+use crate::record::{self, Accumulated, HIT_WORDS, HitRecord, INDEX_WORDS, Photon, Surface};
 use crate::schedule::{Group, Plan, Tag};
 use crate::update::{FILE, Progress, UpdatePass};
 
@@ -121,8 +121,13 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
                 return self.issue(memory, counters);
             };
             let photon = &self.photons[usize::from(tag)];
-            let (surface, before) = (Surface::of(words), Accumulated::of(words));
-            let result = preu::update(&surface, &before, photon, &self.constants, normal_test);
+            let result = match is_outside(words, photon) {
+                true => None,
+                false => {
+                    let (surface, before) = (Surface::of(words), Accumulated::of(words));
+                    preu::update(&surface, &before, photon, &self.constants, normal_test)
+                }
+            };
             counters.operations += 1;
             counters.updates += u64::from(result.is_some());
             // A group has no more operations than there are PREUs.
@@ -131,5 +136,45 @@ impl<F: Format, const N: usize> UpdatePass<F, N> {
         }
         self.issuing = None;
         Ok(())
+    }
+}
+
+/// Whether the photon is too far away, of which most are: the rest of the record is then not looked at.
+#[inline]
+fn is_outside<F: Format>(words: &HitRecord, photon: &Photon<F>) -> bool {
+    let (position, radius2) = record::position_and_radius2(words);
+    (F::COSTLY && is_surely_outside(&position, radius2, &photon.position))
+        || !preu::within(&position, radius2, &photon.position)
+}
+
+/// Whether one axis alone puts the photon outside, so that [`preu::within`] must say no.
+///
+/// A sum of squares, rounded after every step, is never less than one of them: rounding keeps order. With a NaN in either the
+/// comparison is false in both.
+#[inline]
+fn is_surely_outside<F: Format>(hit: &[F; 3], radius2: F, photon: &[F; 3]) -> bool {
+    (0..3).any(|axis| !hit[axis].sub(photon[axis]).square().le(radius2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lucerna_softfloat::F24;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        /// On any bits, with radii near one of the squares more often than chance has them.
+        #[test]
+        fn what_is_surely_outside_is_outside(hit: [u32; 3], photon: [u32; 3], radius2: u32, near in 0usize..6) {
+            let [hit, photon] = [hit, photon].map(|bits| bits.map(F24::from_bits));
+            let radius2 = match near {
+                axis @ 0..3 => hit[axis].sub(photon[axis]).square(),
+                _ => F24::from_bits(radius2),
+            };
+            if is_surely_outside(&hit, radius2, &photon) {
+                prop_assert!(!preu::within(&hit, radius2, &photon));
+            }
+        }
     }
 }

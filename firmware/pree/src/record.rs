@@ -137,6 +137,12 @@ pub fn read_hit<'m>(memory: &'m [u32], hits: &Buffer, hit: u32) -> Option<&'m Hi
     hits.read(memory, hit, 0)
 }
 
+/// What the distance test needs of a hit point.
+#[inline]
+pub fn position_and_radius2<F: Format>(words: &HitRecord) -> ([F; 3], F) {
+    (numbers(words, POSITION), F::from_bits(words[RADIUS2]))
+}
+
 /// The pixel number of a hit point.
 #[inline]
 pub const fn pixel_of(words: &HitRecord) -> u32 {

@@ -41,6 +41,9 @@ pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
     const NAME: &'static str;
     /// The number in the capability register.
     const CODE: FormatCode;
+    /// Whether an operation costs more than a branch that is mispredicted now and then: so it is for soft formats, and a
+    /// shortcut that saves operations then pays.
+    const COSTLY: bool = true;
     /// Positive zero.
     const ZERO: Self;
     /// One.
