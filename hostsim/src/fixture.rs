@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 use lucerna_app::fixture::{Header, seal};
 
+use crate::accelerate::session::ALPHA;
 use crate::grid::{GridError, HashGrid};
 use crate::scene::{LoadOptions, Scene, SceneError};
 use crate::trace::{PhotonChunk, eye_pass};
@@ -26,8 +27,6 @@ pub const WIDTH: u32 = 20;
 pub const HEIGHT: u32 = 15;
 /// Photons emitted.
 pub const EMITTED: u32 = 1_000;
-/// The fraction of new photons kept.
-pub const ALPHA: f32 = 0.7;
 
 /// Why no file was made.
 #[derive(Debug, thiserror::Error)]

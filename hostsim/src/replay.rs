@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use lucerna_bus::{Model, ReplayError, TargetError, replay_timed};
 use lucerna_device::Device;
-use lucerna_softfloat::{F24, F32, Format};
+use lucerna_driver::NumberFormat;
+use lucerna_softfloat::Format;
 
+use crate::accelerate::Units;
 use crate::accelerate::bus::TRACE_END;
 use crate::accelerate::memory::HostMemory;
-use crate::accelerate::{Arith, Units};
+use crate::accelerate::setup::{self, OnDevice};
 use crate::cli::ReplayArgs;
-use crate::format::{HostF24, HostF32};
 
 /// Why a trace could not be done again, or came out otherwise.
 #[derive(Debug, thiserror::Error)]
@@ -51,21 +52,21 @@ pub enum TraceError {
 /// The device that a trace was taken from.
 struct Header {
     units: Units,
-    format: String,
+    format: NumberFormat,
     words: usize,
 }
 
 impl Header {
     fn parse(line: &str) -> Option<Self> {
         let words: Vec<&str> = line.strip_prefix("# lucerna bus trace: ")?.split_whitespace().collect();
-        let ["units", units, "format", format @ ("f32" | "f24"), "words", words] = words[..] else {
+        let ["units", units, "format", format, "words", words] = words[..] else {
             return None;
         };
         Some(Self {
             units: [Units::Four, Units::Eight, Units::Sixteen]
                 .into_iter()
                 .find(|u| u.count().to_string() == units)?,
-            format: format.to_owned(),
+            format: NumberFormat::ALL.into_iter().find(|known| known.name() == format)?,
             words: words.parse().ok().filter(|words| *words < 1 << 30)?,
         })
     }
@@ -85,12 +86,8 @@ pub fn run(args: &ReplayArgs) -> Result<String, TraceError> {
         header.units = units.into();
     }
     check_whole(path, &text)?;
-    match (header.format.as_str(), args.arith.into()) {
-        ("f24", Arith::Fast) => by_units::<HostF24>(args, &header, &text),
-        ("f24", Arith::Soft) => by_units::<F24>(args, &header, &text),
-        (_, Arith::Fast) => by_units::<HostF32>(args, &header, &text),
-        (_, Arith::Soft) => by_units::<F32>(args, &header, &text),
-    }
+    let (format, units) = (header.format, header.units);
+    setup::on_device(format, args.arith.into(), units, Replay { args, words: header.words, text: &text })
 }
 
 /// A trace that was written to its end says how many lines it has.
@@ -100,22 +97,22 @@ fn check_whole(path: &Path, text: &str) -> Result<(), TraceError> {
     if said == Some(lines) { Ok(()) } else { Err(TraceError::CutOff { path: path.to_owned(), lines }) }
 }
 
-fn by_units<F: Format>(args: &ReplayArgs, header: &Header, text: &str) -> Result<String, TraceError> {
-    match header.units {
-        Units::Four => on_device::<F, 4>(args, header, text),
-        Units::Eight => on_device::<F, 8>(args, header, text),
-        Units::Sixteen => on_device::<F, 16>(args, header, text),
-    }
+/// A replay whose device is yet to be built.
+struct Replay<'a> {
+    args: &'a ReplayArgs,
+    words: usize,
+    text: &'a str,
 }
 
-fn on_device<F: Format, const N: usize>(
-    args: &ReplayArgs,
-    header: &Header,
-    text: &str,
-) -> Result<String, TraceError> {
-    let device: Device<F, N, _> = Device::new(HostMemory::new(header.words));
-    let model = Model::new(device).with_timing(args.timing.into());
-    let replayed = replay_timed(text, &mut model.bus(), &mut model.delay())
-        .map_err(|error| TraceError::Line { path: args.trace.clone(), error: Box::new(error) })?;
-    Ok(format!("{} accesses, all as in the trace; {} cycles", replayed.accesses, model.elapsed()))
+impl OnDevice for Replay<'_> {
+    type Output = Result<String, TraceError>;
+
+    fn on<F: Format, const N: usize>(self) -> Self::Output {
+        let Self { args, words, text } = self;
+        let device: Device<F, N, _> = Device::new(HostMemory::new(words));
+        let model = Model::new(device).with_timing(args.timing.into());
+        let replayed = replay_timed(text, &mut model.bus(), &mut model.delay())
+            .map_err(|error| TraceError::Line { path: args.trace.clone(), error: Box::new(error) })?;
+        Ok(format!("{} accesses, all as in the trace; {} cycles", replayed.accesses, model.elapsed()))
+    }
 }

@@ -8,7 +8,8 @@ use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use hostsim::fixture::{ALPHA, EMITTED, HEIGHT, SCENE, WIDTH};
+use hostsim::accelerate::session::ALPHA;
+use hostsim::fixture::{EMITTED, HEIGHT, SCENE, WIDTH};
 use hostsim::grid::HashGrid;
 use hostsim::picture::fnv1a64;
 use hostsim::scene::{LoadOptions, Scene};

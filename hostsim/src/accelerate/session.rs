@@ -11,14 +11,13 @@ use lucerna_device::Device;
 use lucerna_driver::records::HIT_POINT_WORDS;
 use lucerna_driver::{
     Buffer, Capabilities, Counters, Deadline, Error, EvaluateJob, HitPoint as HitRecord, JobError, Layout,
-    LayoutError, Lucerna, NumberFormat, Photon, Sizes, UpdateJob,
+    LayoutError, Lucerna, Photon, Sizes, UpdateJob,
 };
-use lucerna_softfloat::{F24, F32, Format};
+use lucerna_softfloat::Format;
 
 use super::bus::{MaybeTraced, MaybeTracedDelay, TraceFile};
 use super::memory::HostMemory;
-use super::setup::{Arith, Setup, Units};
-use crate::format::{HostF24, HostF32};
+use super::setup::{self, OnDevice, Setup};
 use crate::grid::HashGrid;
 use crate::oracle::State;
 use crate::trace::{HitPoint, PhotonChunk};
@@ -67,6 +66,13 @@ pub struct Outcome {
     pub host_time: Duration,
 }
 
+impl Outcome {
+    /// The pixels as the tone map takes them.
+    pub fn radiance(&self) -> Vec<[f64; 3]> {
+        self.pixels.iter().map(|pixel| pixel.map(f64::from)).collect()
+    }
+}
+
 /// Why there is no outcome.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
@@ -108,57 +114,51 @@ pub fn run(
     workload: &Workload<'_>,
     source: &mut dyn PhotonSource,
 ) -> Result<Outcome, RunError> {
-    match (setup.format, setup.arith) {
-        (NumberFormat::F32, Arith::Fast) => by_units::<HostF32>(setup, workload, source),
-        (NumberFormat::F32, Arith::Soft) => by_units::<F32>(setup, workload, source),
-        (NumberFormat::F24, Arith::Fast) => by_units::<HostF24>(setup, workload, source),
-        (NumberFormat::F24, Arith::Soft) => by_units::<F24>(setup, workload, source),
-    }
+    let (format, arith, units) = (setup.format, setup.arith, setup.units);
+    setup::on_device(format, arith, units, Session { setup, workload, source })
 }
 
-fn by_units<F: Format>(
-    setup: &Setup,
-    workload: &Workload<'_>,
-    source: &mut dyn PhotonSource,
-) -> Result<Outcome, RunError> {
-    match setup.units {
-        Units::Four => on_device::<F, 4>(setup, workload, source),
-        Units::Eight => on_device::<F, 8>(setup, workload, source),
-        Units::Sixteen => on_device::<F, 16>(setup, workload, source),
-    }
+/// A run whose device is yet to be built.
+struct Session<'a> {
+    setup: &'a Setup,
+    workload: &'a Workload<'a>,
+    source: &'a mut dyn PhotonSource,
 }
 
-fn on_device<F: Format, const N: usize>(
-    setup: &Setup,
-    workload: &Workload<'_>,
-    source: &mut dyn PhotonSource,
-) -> Result<Outcome, RunError> {
-    let sizes = Sizes {
-        hit_points: workload.points.len() as u32,
-        index_entries: workload.grid.entries().len() as u32,
-        pixels: workload.pixels,
-        ring_entries: setup.ring_entries,
-        normal_test: setup.normal_test,
-    };
-    let bytes = sizes.bytes();
-    let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
-    let device: Device<F, N, _> = Device::new(HostMemory::new(words));
-    let model = Model::new(device).with_timing(setup.timing);
-    let header = header(setup, words);
-    let path = setup.bus_trace.as_deref();
-    let failed = |source| RunError::Trace { path: path.unwrap_or(Path::new("")).to_owned(), source };
-    let trace =
-        path.map(|path| TraceFile::create(path, &header).map(RefCell::new)).transpose().map_err(failed)?;
-    let mut bus = MaybeTraced::new(model.bus(), trace.as_ref());
-    let delay = MaybeTracedDelay::new(model.delay(), trace.as_ref());
-    let outcome = drive(&mut bus, delay, sizes, setup, workload, source)?;
-    if bus.lost() > 0 {
-        return Err(failed(io::Error::other(format!("{} lines were not taken", bus.lost()))));
+impl OnDevice for Session<'_> {
+    type Output = Result<Outcome, RunError>;
+
+    fn on<F: Format, const N: usize>(self) -> Self::Output {
+        let Self { setup, workload, source } = self;
+        let sizes = Sizes {
+            hit_points: workload.points.len() as u32,
+            index_entries: workload.grid.entries().len() as u32,
+            pixels: workload.pixels,
+            ring_entries: setup.ring_entries,
+            normal_test: setup.normal_test,
+        };
+        let bytes = sizes.bytes();
+        let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
+        let device: Device<F, N, _> = Device::new(HostMemory::new(words));
+        let model = Model::new(device).with_timing(setup.timing);
+        let header = header(setup, words);
+        let path = setup.bus_trace.as_deref();
+        let failed = |source| RunError::Trace { path: path.unwrap_or(Path::new("")).to_owned(), source };
+        let trace = path
+            .map(|path| TraceFile::create(path, &header).map(RefCell::new))
+            .transpose()
+            .map_err(failed)?;
+        let mut bus = MaybeTraced::new(model.bus(), trace.as_ref());
+        let delay = MaybeTracedDelay::new(model.delay(), trace.as_ref());
+        let outcome = drive(&mut bus, delay, sizes, setup, workload, source)?;
+        if bus.lost() > 0 {
+            return Err(failed(io::Error::other(format!("{} lines were not taken", bus.lost()))));
+        }
+        if let Some(trace) = trace {
+            trace.into_inner().finish().map_err(failed)?;
+        }
+        Ok(outcome)
     }
-    if let Some(trace) = trace {
-        trace.into_inner().finish().map_err(failed)?;
-    }
-    Ok(outcome)
 }
 
 /// What `hostsim replay` has to know to build the same device.

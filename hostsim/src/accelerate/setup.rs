@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use lucerna_bus::Timing;
 use lucerna_driver::{NumberFormat, Policies};
+use lucerna_softfloat::{F24, F32, Format};
+
+use crate::format::{HostF24, HostF32};
 
 /// How many PREUs the device has.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -91,5 +94,32 @@ impl Default for Setup {
             ring_entries: 1 << 13,
             bus_trace: None,
         }
+    }
+}
+
+/// Something to do on a device whose format and number of PREUs are types.
+pub trait OnDevice {
+    /// What it comes to.
+    type Output;
+
+    /// Does it on `N` PREUs of format `F`.
+    fn on<F: Format, const N: usize>(self) -> Self::Output;
+}
+
+/// Does it on the device that the choices name: the one place where they become types.
+pub fn on_device<T: OnDevice>(format: NumberFormat, arith: Arith, units: Units, task: T) -> T::Output {
+    match (format, arith) {
+        (NumberFormat::F32, Arith::Fast) => by_units::<HostF32, T>(units, task),
+        (NumberFormat::F32, Arith::Soft) => by_units::<F32, T>(units, task),
+        (NumberFormat::F24, Arith::Fast) => by_units::<HostF24, T>(units, task),
+        (NumberFormat::F24, Arith::Soft) => by_units::<F24, T>(units, task),
+    }
+}
+
+fn by_units<F: Format, T: OnDevice>(units: Units, task: T) -> T::Output {
+    match units {
+        Units::Four => task.on::<F, 4>(),
+        Units::Eight => task.on::<F, 8>(),
+        Units::Sixteen => task.on::<F, 16>(),
     }
 }

@@ -67,7 +67,8 @@ pub enum RenderError {
 }
 
 impl RenderError {
-    fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+    /// That a file of the results could not be written.
+    pub(crate) fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         |source| Self::Write { path, source }
     }
@@ -139,8 +140,7 @@ fn write_pictures(
     reference: &[[f64; 3]],
 ) -> Result<Comparison, RenderError> {
     let (width, height, out) = (options.width, options.height, &options.out);
-    let pixels: Vec<[f64; 3]> = outcome.pixels.iter().map(|pixel| pixel.map(f64::from)).collect();
-    let ours = picture::tone_map(&pixels, width, height)?;
+    let ours = picture::tone_map(&outcome.radiance(), width, height)?;
     let reference = picture::tone_map(reference, width, height)?;
     picture::save(&ours, &out.join("picture.png"))?;
     picture::save(&reference, &out.join("reference.png"))?;

@@ -58,8 +58,7 @@ impl Recorded {
     }
 
     fn picture(&self, outcome: &Outcome) -> Result<image::RgbImage, RenderError> {
-        let radiance: Vec<[f64; 3]> = outcome.pixels.iter().map(|pixel| pixel.map(f64::from)).collect();
-        Ok(picture::tone_map(&radiance, self.width, self.height)?)
+        Ok(picture::tone_map(&outcome.radiance(), self.width, self.height)?)
     }
 }
 
@@ -74,11 +73,7 @@ impl PhotonSource for core::slice::Iter<'_, PhotonChunk> {
 /// # Errors
 /// [`RenderError`].
 pub fn run(full: bool, out: &Path, bar: &ProgressBar) -> Result<Figures, RenderError> {
-    let write = |path: &Path| {
-        let path = path.to_owned();
-        move |source| RenderError::Write { path, source }
-    };
-    std::fs::create_dir_all(out).map_err(write(out))?;
+    std::fs::create_dir_all(out).map_err(RenderError::write(out))?;
     let mut figures = Figures::default();
     bar.set_length(16 + u64::from(full));
 
@@ -117,7 +112,7 @@ pub fn run(full: bool, out: &Path, bar: &ProgressBar) -> Result<Figures, RenderE
     bar.inc(1);
 
     let path = out.join("pree.json");
-    std::fs::write(&path, figures.to_json()).map_err(write(&path))?;
+    std::fs::write(&path, figures.to_json()).map_err(RenderError::write(&path))?;
     Ok(figures)
 }
 
