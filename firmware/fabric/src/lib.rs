@@ -2,8 +2,11 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`cache`] | tags of a set-associative cache whose size is chosen at run time |
 //! | [`delay`] | a fixed number of clocked stages between two parts |
 //! | [`inflight`] | a pipeline's contents as a scoreboard: which address was issued how many cycles ago |
+//! | [`port`] | the memory read port that requesters share |
+//! | [`semi`] | a semi-pipelined unit: initiation interval, latency, back pressure |
 //! | [`window`] | memory windows and the buffers that were checked against them |
 //!
 //! ```
@@ -18,6 +21,9 @@
 //! ```
 #![no_std]
 
+pub mod cache;
 pub mod delay;
 pub mod inflight;
+pub mod port;
+pub mod semi;
 pub mod window;

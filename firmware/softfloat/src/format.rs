@@ -11,6 +11,8 @@ pub enum FormatCode {
     F32 = 0,
     /// 1-7-16.
     F24 = 1,
+    /// Numbers outside the datapath are f32, those inside binary64: for studies on a host, no hardware has it.
+    F64 = 2,
 }
 
 impl FormatCode {
@@ -20,16 +22,18 @@ impl FormatCode {
         match bits {
             0 => Some(FormatCode::F32),
             1 => Some(FormatCode::F24),
+            2 => Some(FormatCode::F64),
             _ => None,
         }
     }
 
-    /// "f32" or "f24".
+    /// "f32", "f24" or "f64".
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             FormatCode::F32 => "f32",
             FormatCode::F24 => "f24",
+            FormatCode::F64 => "f64",
         }
     }
 }
@@ -80,6 +84,41 @@ pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
     fn le(self, other: Self) -> bool;
     /// `self = other` as numbers; false with a NaN.
     fn eq(self, other: Self) -> bool;
+    /// `⌊self · 2^log2⌋`, clipped to ±2^24; 0 for a NaN. `log2` is at most 31.
+    #[inline]
+    #[must_use]
+    fn floor_scaled(self, log2: u32) -> i32 {
+        floor(self.to_f32() * power_of_two(log2 as i32))
+    }
+    /// `⌊(self + factor · other) · 2^log2⌋`, product and sum each rounded to the format, clipped as
+    /// [`floor_scaled`](Format::floor_scaled).
+    #[inline]
+    #[must_use]
+    fn add_product_floor(self, factor: Self, other: Self, log2: u32) -> i32 {
+        self.add(factor.mul(other)).floor_scaled(log2)
+    }
+    /// `integer · 2^-log2`, rounded once when `integer` is within ±2^24. `log2` is at most 31.
+    #[inline]
+    #[must_use]
+    fn from_scaled(integer: i32, log2: u32) -> Self {
+        Self::from_f32(integer as f32 * power_of_two(-(log2 as i32)))
+    }
+}
+
+/// The limit of [`Format::floor_scaled`], to which every integer is an f32.
+const FLOOR_LIMIT: f32 = (1 << 24) as f32;
+
+#[inline]
+const fn power_of_two(exponent: i32) -> f32 {
+    f32::from_bits(((127 + exponent) as u32) << 23)
+}
+
+#[inline]
+fn floor(x: f32) -> i32 {
+    let clipped = x.clamp(-FLOOR_LIMIT, FLOOR_LIMIT);
+    // Toward zero; a NaN becomes 0.
+    let whole = clipped as i32;
+    whole - i32::from(whole as f32 > clipped)
 }
 
 macro_rules! soft_format {
