@@ -51,7 +51,7 @@
 //! `lucerna_softfloat` (this crate depends on none of them):
 //!
 //! ```ignore
-//! let device = Device::<F32, 4, _>::new(vec![0u32; words]);
+//! let device = PreeDevice::<F32, 4, _>::new(vec![0u32; words]);
 //! let model = Model::new(device);
 //! let mut lucerna = Lucerna::probe(model.bus(), model.delay())?;
 //! ```

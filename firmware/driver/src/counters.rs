@@ -1,4 +1,4 @@
-//! What the device has counted. In: its snapshot. Out: a struct. Cost: a write and 30 reads.
+//! What the progressive radiance estimation engine has counted. In: its snapshot. Out: a struct. Cost: a write and 30 reads.
 
 use embedded_hal::delay::DelayNs;
 use lucerna_bus::Bus;
@@ -47,9 +47,7 @@ impl Counters {
         device.adjust(counters::CONTROL, counters::Control::RESET.with_snapshot(true).bits())?;
         let mut values = Self::default();
         for counter in Counter::ALL {
-            let low = device.read(counter.low())?;
-            let high = device.read(counter.high())?;
-            *values.field(counter) = u64::from(high) << 32 | u64::from(low);
+            *values.field(counter) = device.read_pair(counter.low(), counter.high())?;
         }
         Ok(values)
     }

@@ -3,6 +3,7 @@
 
 use core::fmt;
 
+use lucerna_regs::displace;
 use lucerna_regs::pree::ErrorCode;
 
 /// Why a call failed, and what the device is doing now.
@@ -60,11 +61,16 @@ pub enum Cause<E> {
     NoUnit,
     /// The last job was left running, or ended in an error.
     NotReady,
+    /// There is no job to resume: the last one was seen to its end, or none was started.
+    NoJob,
     /// The layout was made for a device of another number format or with more memory.
     ForeignLayout,
-    /// `first` and the slice's length lead past the end of the call's buffer: hit points, index table or pixels, as
-    /// its name says, with the count the layout's [`Sizes`](crate::Sizes) give it. Nothing was read or written.
+    /// `first` and the slice's length lead past the end of the call's buffer: hit points, index table, pixels, rays or
+    /// results, as its name says, with the count the layout's [`Sizes`](crate::Sizes) (or
+    /// [`displace::Sizes`](crate::displace::Sizes)) give it. Nothing was read or written.
     OutsideBuffer,
+    /// An image has another width or height than the layout's map of its kind. Nothing was written.
+    WrongShape,
     /// An element refers to a hit point or pixel which the layout does not have: a hit point's `pixel` is not below
     /// [`Sizes::pixels`](crate::Sizes::pixels), or an index entry not below
     /// [`Sizes::hit_points`](crate::Sizes::hit_points). Nothing was written.
@@ -72,8 +78,10 @@ pub enum Cause<E> {
         /// The element's place in the slice, from 0; its number in the buffer is the call's `first` more.
         position: usize,
     },
-    /// The device found an error in the job.
+    /// The progressive radiance estimation engine found an error in the job.
     Device(DeviceError),
+    /// The displacement unit found an error in the job.
+    Displace(DisplaceError),
     /// The deadline passed first.
     Timeout,
     /// The job is complete, but its interrupt never came.
@@ -91,12 +99,22 @@ pub enum Cause<E> {
     Stuck,
 }
 
-/// An error the device found: the code, and the address it is about (0 where there is none).
+/// An error the progressive radiance estimation engine found: the code, and the address it is about (0 where there is none).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeviceError {
     /// The error code.
     pub code: ErrorCode,
+    /// The byte address in device memory.
+    pub address: u32,
+}
+
+/// An error the displacement unit found: the code, and the address it is about (0 where there is none).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DisplaceError {
+    /// The error code.
+    pub code: displace::ErrorCode,
     /// The byte address in device memory.
     pub address: u32,
 }
@@ -156,6 +174,45 @@ impl fmt::Display for DeviceError {
     }
 }
 
+impl fmt::Display for DisplaceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use displace::ErrorCode;
+        let at = self.address;
+        match self.code {
+            ErrorCode::None => {
+                f.write_str("the displacement unit reports an error without a code: recover and try again")
+            }
+            ErrorCode::BadConfig => f.write_str(
+                "the displacement unit's CONFIG or WATCHDOG is illegal: make the job with this driver's types",
+            ),
+            ErrorCode::Window => {
+                write!(f, "the map, rays or results at {at:#x} are misaligned or in no window: lay them out again")
+            }
+            ErrorCode::TooLarge => {
+                write!(f, "the bytes of the map, rays or results at {at:#x} do not fit 32 bits: split the job")
+            }
+            ErrorCode::BadMap => {
+                write!(f, "the map at {at:#x} is larger than 4096 texels along an axis: make it smaller")
+            }
+            ErrorCode::BadRaster => f.write_str("the raster has no pixel, or too many: choose another size"),
+            ErrorCode::GrazingRay => write!(
+                f,
+                "the ray of the result at {at:#x} does not come down on the surface: leave it out, or record such rays"
+            ),
+            ErrorCode::Watchdog => write!(
+                f,
+                "the ray of the result at {at:#x} took as many steps as the watchdog allows: allow more, or record                  such rays"
+            ),
+            ErrorCode::Overlap => {
+                write!(f, "the results at {at:#x} would overwrite what the job reads: move them apart")
+            }
+            ErrorCode::NotIdle => {
+                f.write_str("a second START of the displacement unit came while the job ran: let only one driver use it")
+            }
+        }
+    }
+}
+
 impl<E: fmt::Debug> fmt::Display for Error<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.cause {
@@ -173,12 +230,16 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
             }
             Cause::NoUnit => f.write_str("the device was built without this unit: use another")?,
             Cause::NotReady => f.write_str("the last job is not complete: wait for it, or recover")?,
+            Cause::NoJob => f.write_str("there is no job to resume: start one")?,
+            Cause::WrongShape => f.write_str(
+                "the image is not as wide and high as the layout's map of its kind: scale it, or lay out another size",
+            )?,
             Cause::ForeignLayout => {
                 f.write_str("the layout is for another device: make it from this one's capabilities")?
             }
             Cause::OutsideBuffer => f.write_str(
-                "`first` plus the slice's length is above this buffer's count in Sizes (hit_points, index_entries \
-                 or pixels): pass fewer, or lay out more",
+                "`first` plus the slice's length is above this buffer's count in Sizes (hit_points, index_entries, \
+                 pixels, rays or results): pass fewer, or lay out more",
             )?,
             Cause::BadReference { position } => write!(
                 f,
@@ -186,6 +247,7 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
                  Sizes::pixels, an index entry below Sizes::hit_points"
             )?,
             Cause::Device(error) => error.fmt(f)?,
+            Cause::Displace(error) => error.fmt(f)?,
             Cause::Timeout => f.write_str("the deadline passed: wait on, or recover")?,
             Cause::LostInterrupt => {
                 f.write_str("the job is complete, but its interrupt never came: check the pin")?
@@ -203,3 +265,5 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
 impl<E: fmt::Debug> core::error::Error for Error<E> {}
 
 impl core::error::Error for DeviceError {}
+
+impl core::error::Error for DisplaceError {}

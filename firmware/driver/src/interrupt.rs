@@ -16,9 +16,6 @@ use crate::{Cause, Deadline, Error, Lucerna, Progress};
 /// The longest sleep before the device is asked itself, in microseconds.
 const RECHECK: u32 = 10_000;
 
-/// What ends a job.
-const JOB_END: interrupts::Enable = interrupts::Enable::RESET.with_done(true).with_error(true);
-
 impl<B: Bus, D: DelayNs> Lucerna<B, D> {
     /// Waits for the job's end by the line; it is enabled only meanwhile.
     pub(crate) async fn done(
@@ -27,7 +24,7 @@ impl<B: Bus, D: DelayNs> Lucerna<B, D> {
         delay: &mut impl AsyncDelayNs,
         deadline: Deadline,
     ) -> Result<(), Error<B::Error>> {
-        self.adjust(interrupts::ENABLE, JOB_END.bits())?;
+        self.adjust(interrupts::ENABLE, self.unit().done() | self.unit().failed())?;
         let result = self.ended(irq, delay, deadline).await;
         let disabled = self.adjust(interrupts::ENABLE, 0);
         result.and(disabled)
@@ -48,7 +45,7 @@ impl<B: Bus, D: DelayNs> Lucerna<B, D> {
         let mut suspect = false;
         let look = |high: bool| {
             let events = self.events()?;
-            if events.done() && !high && !suspect {
+            if events.done && !high && !suspect {
                 suspect = true;
                 return Ok(None);
             }

@@ -104,6 +104,19 @@ pub struct Region {
 }
 
 impl Region {
+    /// No bytes.
+    pub(crate) const EMPTY: Self = Self { base: 0, limit: 0 };
+
+    /// From `base` up to, but without, `limit`.
+    pub(crate) const fn new(base: u32, limit: u32) -> Self {
+        Self { base, limit }
+    }
+
+    /// The least region that holds two.
+    pub(crate) fn joined(&self, other: &Self) -> Self {
+        Self { base: self.base.min(other.base), limit: self.limit.max(other.limit) }
+    }
+
     /// Address of its first byte.
     pub const fn base(&self) -> u32 {
         self.base
@@ -114,8 +127,10 @@ impl Region {
         self.limit
     }
 
-    const fn overlaps(&self, other: &Self) -> bool {
-        self.base < other.limit && other.base < self.limit
+    /// Whether they share a byte; one without bytes shares none.
+    pub(crate) const fn overlaps(&self, other: &Self) -> bool {
+        let empty = self.base == self.limit || other.base == other.limit;
+        !empty && self.base < other.limit && other.base < self.limit
     }
 }
 
@@ -160,7 +175,7 @@ impl Layout {
                 return Err(LayoutError::Misaligned(buffer));
             }
             match u32::try_from(u64::from(base) + sizes.bytes_of(buffer)) {
-                Ok(limit) if limit <= device.memory_bytes => Ok(Region { base, limit }),
+                Ok(limit) if limit <= device.memory_bytes => Ok(Region::new(base, limit)),
                 _ => Err(LayoutError::OutsideMemory(buffer)),
             }
         };

@@ -8,7 +8,8 @@
 //!    [`Pree::evaluate`] a [`Run`]. Both borrow the handle, so no other job is started, and no result read, while
 //!    one runs.
 //! 4. A run is polled, waited for with a [`Deadline`], or awaited on the interrupt pin.
-//! 5. Every [`Error`] has a cause and a [`State`]; [`Lucerna::recover`] brings the device back from any of them.
+//! 5. [`Displace`] does the same for the pyramidal displacement mapping unit; see [`displace`].
+//! 6. Every [`Error`] has a cause and a [`State`]; [`Lucerna::recover`] brings the device back from any of them.
 //!
 //! A whole program on a modelled device is `tests/examples/first_job.rs`; run it with
 //! `cargo run --release -p lucerna-tests --example first_job`. One pass of it:
@@ -48,7 +49,7 @@
 //! # impl DelayNs for NoDelay { fn delay_ns(&mut self, _: u32) {} }
 //! let script = [
 //!     Access::Read(0x000, 0x4C55_4352),
-//!     Access::Read(0x004, 0x0001_0000),
+//!     Access::Read(0x004, 0x0001_0001),
 //!     Access::Read(0x008, 0x0001_4004),
 //!     Access::Read(0x00C, 0x0000_0C0A),
 //!     Access::Read(0x010, 1 << 20),
@@ -100,9 +101,10 @@
 //! # Dropping a stream or a run
 //!
 //! The job runs on, and the handle knows. [`Lucerna::pree`] and [`Pree::counters`] still work; whatever needs an idle
-//! device (buffers, the next start) fails with [`Cause::NotReady`] and [`State::Running`]. A dropped job cannot be
-//! waited for any more: wait first ([`Run::wait`], [`Run::done`]), or give it up with [`recover`](Lucerna::recover).
-//! A dropped *future* of `done` or `push_all_on` takes nothing away: its run or stream is still there to wait with.
+//! device (buffers, the next start) fails with [`Cause::NotReady`] and [`State::Running`]. [`Pree::resume`] and
+//! [`Displace::resume`](Displace::resume) give the stream or run back, also to a driver which finds the job at its
+//! probe; [`recover`](Lucerna::recover) gives the job up. A dropped *future* of `done` or `push_all_on` takes nothing
+//! away: its run or stream is still there to wait with.
 //!
 //! # Async
 //!
@@ -130,6 +132,7 @@
 mod capabilities;
 mod counters;
 mod deadline;
+pub mod displace;
 mod error;
 mod interrupt;
 mod job;
@@ -138,13 +141,16 @@ mod lucerna;
 mod memory;
 mod pree;
 pub mod records;
+mod resume;
 mod run;
 mod stream;
+mod unit;
 
-pub use capabilities::{Capabilities, NumberFormat, VERSION};
+pub use capabilities::{Cache, Capabilities, DisplaceCapabilities, NumberFormat, VERSION};
 pub use counters::Counters;
 pub use deadline::Deadline;
-pub use error::{Cause, DeviceError, Error, State};
+pub use displace::Displace;
+pub use error::{Cause, DeviceError, DisplaceError, Error, State};
 pub use job::{EvaluateJob, JobError, Policies, UpdateJob};
 pub use layout::{Bases, Buffer, Layout, LayoutError, RING_ENTRIES_MAX, Region, Sizes};
 pub use lucerna::{Lucerna, Progress};
@@ -152,5 +158,7 @@ pub use lucerna_regs::counters::Counter;
 pub use lucerna_regs::pree::{Allocation, Busy, ErrorCode, Hazard, InputWidth, Scheduler};
 pub use pree::Pree;
 pub use records::{HitPoint, Photon};
+pub use resume::Resumed;
 pub use run::Run;
 pub use stream::{PUSH_BLOCK, Stream};
+pub use unit::Unit;

@@ -2,8 +2,8 @@
 //! run to wait for. Cost: 25 register writes a job.
 //!
 //! The handle is borrowed by what it starts, so no second job can be started, and no buffer read or written,
-//! while one runs. A stream or run that is dropped goes on in the device: the handle remembers, and until
-//! [`recover`](Pree::recover) refuses with [`Cause::NotReady`].
+//! while one runs. A stream or run that is dropped goes on in the device: the handle remembers, and
+//! refuses with [`Cause::NotReady`] until [`resume`](Pree::resume) or [`recover`](Pree::recover).
 
 use embedded_hal::delay::DelayNs;
 use lucerna_bus::Bus;
@@ -13,7 +13,7 @@ use lucerna_regs::window;
 use crate::layout::Buffer;
 use crate::stream::Ring;
 use crate::{
-    Capabilities, Cause, Counters, Error, EvaluateJob, Layout, Lucerna, Policies, Run, State, Stream,
+    Capabilities, Cause, Counters, Error, EvaluateJob, Layout, Lucerna, Policies, Run, State, Stream, Unit,
     UpdateJob,
 };
 
@@ -75,7 +75,7 @@ impl<'a, B: Bus, D: DelayNs> Pree<'a, B, D> {
         self.describe(job.layout(), Mode::Update, job.policies())?;
         self.device.command(pree::ALPHA, job.alpha())?;
         self.device.command(pree::RING_LOW, job.ring_low())?;
-        self.device.start()?;
+        self.device.start(Unit::Pree)?;
         Ok(Stream::new(self.device, Ring::new(job)))
     }
 
@@ -84,7 +84,7 @@ impl<'a, B: Bus, D: DelayNs> Pree<'a, B, D> {
         self.guard(job.layout())?;
         self.describe(job.layout(), Mode::Evaluate, job.policies())?;
         self.device.command(pree::EMITTED, job.emitted())?;
-        self.device.start()?;
+        self.device.start(Unit::Pree)?;
         Ok(Run::new(self.device))
     }
 

@@ -20,20 +20,21 @@ pub const HIT_POINT_WORDS: usize = 16;
 /// Words of a pixel.
 pub const PIXEL_WORDS: usize = 3;
 
-/// The device's bits for a host number: rounded to nearest even, a NaN becomes the canonical one.
+/// The device's bits for a host number: rounded to nearest even, a NaN becomes the canonical one. A device of the study
+/// format `F64` takes the bits of an f32.
 #[inline]
 pub fn encode(format: NumberFormat, number: f32) -> u32 {
     match format {
-        NumberFormat::F32 => F32::from_f32(number).to_bits(),
+        NumberFormat::F32 | NumberFormat::F64 => F32::from_f32(number).to_bits(),
         NumberFormat::F24 => F24::from_f32(number).to_bits(),
     }
 }
 
-/// The host number of the device's bits: exact in both formats.
+/// The host number of the device's bits: exact in every format.
 #[inline]
 pub fn decode(format: NumberFormat, bits: u32) -> f32 {
     match format {
-        NumberFormat::F32 => F32::from_bits(bits).to_f32(),
+        NumberFormat::F32 | NumberFormat::F64 => F32::from_bits(bits).to_f32(),
         NumberFormat::F24 => F24::from_bits(bits).to_f32(),
     }
 }

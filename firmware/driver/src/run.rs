@@ -9,8 +9,9 @@ use crate::{Counters, Deadline, Error, Lucerna, Progress};
 
 /// A running job which needs nothing more: evaluation, or an update that was flushed.
 ///
-/// If it is dropped before it was seen to be done, the job runs on, but nobody can wait for it any more: nothing else
-/// can be started ([`Cause::NotReady`](crate::Cause::NotReady)) until [`Lucerna::recover`] gives it up.
+/// If it is dropped before it was seen to be done, the job runs on, and nothing else can be started
+/// ([`Cause::NotReady`](crate::Cause::NotReady)) until [`Pree::resume`](crate::Pree::resume) takes it up again, or
+/// [`Lucerna::recover`] gives it up.
 #[derive(Debug)]
 #[must_use = "dropped, the job runs on and the next start fails with NotReady: wait for it or abort it"]
 pub struct Run<'a, B, D> {

@@ -28,17 +28,17 @@ const WAKE: interrupts::Enable = interrupts::Enable::RESET.with_ring_space(true)
 /// The driver's end of the ring.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ring {
-    base: u32,
-    entries: u32,
-    format: NumberFormat,
-    normal_test: bool,
+    pub(crate) base: u32,
+    pub(crate) entries: u32,
+    pub(crate) format: NumberFormat,
+    pub(crate) normal_test: bool,
     /// Records waiting at which the ring-space interrupt is raised.
-    low: u32,
+    pub(crate) low: u32,
     /// Records announced, modulo 2^32 as in RING_TAIL.
-    tail: u32,
+    pub(crate) tail: u32,
     /// Slots known to be free: never more than there are.
-    free: u32,
-    pushed: u64,
+    pub(crate) free: u32,
+    pub(crate) pushed: u64,
 }
 
 impl Ring {
@@ -103,7 +103,7 @@ impl Ring {
 /// A running update job which takes photons until it is flushed.
 ///
 /// If it is dropped, the job runs on without an end: nothing else can be started ([`Cause::NotReady`]) until
-/// [`Lucerna::recover`] gives it up.
+/// [`Pree::resume`](crate::Pree::resume) takes it up again, or [`Lucerna::recover`] gives it up.
 #[derive(Debug)]
 #[must_use = "dropped, the job runs on and the next start fails with NotReady: finish, flush or abort it"]
 pub struct Stream<'a, B, D> {
@@ -295,7 +295,7 @@ mod tests {
     #[test]
     fn the_counts_turn_over_at_2_to_the_32() {
         let device = Capabilities {
-            version: (1, 0),
+            version: (1, 1),
             preus: 4,
             format: NumberFormat::F32,
             buffer_entries: 4,
@@ -304,6 +304,7 @@ mod tests {
             evaluate_stages: 12,
             operand_latency: 0,
             memory_bytes: 4096,
+            displace: None,
         };
         let sizes = Sizes { hit_points: 1, index_entries: 1, pixels: 1, ring_entries: 8, normal_test: false };
         let layout = Layout::packed(&device, sizes).unwrap();
@@ -315,7 +316,7 @@ mod tests {
         let (two, three) = (record.repeat(2), record.repeat(3));
         let script = [
             Access::Read(0x000, 0x4C55_4352),
-            Access::Read(0x004, 0x0001_0000),
+            Access::Read(0x004, 0x0001_0001),
             Access::Read(0x008, 0x0001_4004),
             Access::Read(0x00C, 0x0000_0C0A),
             Access::Read(0x010, 4096),

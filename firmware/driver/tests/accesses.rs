@@ -8,12 +8,12 @@ use lucerna_bus::Access::{self, Read, ReadBlock, Write, WriteBlock};
 use lucerna_bus::Scripted;
 use lucerna_driver::{
     Allocation, Busy, Cause, Deadline, DeviceError, ErrorCode, EvaluateJob, Hazard, InputWidth, Lucerna,
-    NumberFormat, Photon, Policies, Pree, Progress, Scheduler, Sizes, State, UpdateJob,
+    NumberFormat, Photon, Policies, Pree, Progress, Resumed, Scheduler, Sizes, State, UpdateJob,
 };
 
 const PROBE: [Access<'static>; 6] = [
     Read(0x000, 0x4C55_4352),
-    Read(0x004, 0x0001_0000),
+    Read(0x004, 0x0001_0001),
     Read(0x008, 0x0001_4008),
     Read(0x00C, 0x0001_0C0A),
     Read(0x010, 64 * 1024),
@@ -70,19 +70,20 @@ fn probe_reads_and_does_not_write() {
         let device = pree.capabilities();
         assert_eq!((device.preus, device.format, device.buffer_entries), (8, NumberFormat::F32, 4));
         assert_eq!((device.update_stages, device.evaluate_stages, device.operand_latency), (10, 12, 1));
-        assert_eq!((device.version, device.memory_bytes, device.units), ((1, 0), 64 * 1024, 1));
+        assert_eq!((device.version, device.memory_bytes, device.units), ((1, 1), 64 * 1024, 1));
         assert_eq!(pree.state(), State::Idle);
     });
 }
 
 #[test]
 fn a_probe_of_the_wrong_device_stops_at_once() {
-    let cases: [(&[Access<'_>], Cause<_>); 6] = [
+    let cases: [(&[Access<'_>], Cause<_>); 7] = [
         (&[Read(0, 0)], Cause::WrongDevice { id: 0 }),
         (&[Read(0, u32::MAX)], Cause::WrongDevice { id: u32::MAX }),
         (&[PROBE[0], Read(4, 0x0002_0000)], Cause::WrongVersion { major: 2, minor: 0 }),
+        (&[PROBE[0], Read(4, 0x0001_0000)], Cause::WrongVersion { major: 1, minor: 0 }),
         (&[PROBE[0], Read(4, 0x0000_0009)], Cause::WrongVersion { major: 0, minor: 9 }),
-        (&[PROBE[0], PROBE[1], Read(8, 0x0001_4208)], Cause::Nonsense { offset: 8, bits: 0x0001_4208 }),
+        (&[PROBE[0], PROBE[1], Read(8, 0x0001_4308)], Cause::Nonsense { offset: 8, bits: 0x0001_4308 }),
         (&[PROBE[0], PROBE[1], Read(8, 0x0001_4000)], Cause::Nonsense { offset: 8, bits: 0x0001_4000 }),
     ];
     for (script, cause) in cases {
@@ -96,11 +97,15 @@ fn a_probe_of_the_wrong_device_stops_at_once() {
     script[1] = Read(4, 0x0001_0007);
     assert_eq!(Lucerna::probe(Scripted::new(&script), NoDelay).unwrap().capabilities().version, (1, 7));
     // Without the unit there is nothing to ask for its state, and no handle.
-    script[2] = Read(8, 0x0002_4008);
+    script[2] = Read(8, 0x0004_4008);
     let mut bus = Scripted::new(&script[..5]);
     let error = Lucerna::probe(&mut bus, NoDelay).unwrap().pree().unwrap_err();
     assert_eq!((error.cause, error.state), (Cause::NoUnit, State::Untouched));
     bus.finish().unwrap();
+    let mut lucerna = Lucerna::probe(Scripted::new(&script[..5]), NoDelay).unwrap();
+    assert_eq!(lucerna.displace().unwrap_err().cause, Cause::NoUnit);
+    assert_eq!(lucerna.counters().unwrap_err().cause, Cause::NoUnit);
+    assert_eq!(lucerna.clear_counters().unwrap_err().cause, Cause::NoUnit);
 }
 
 #[test]
@@ -381,6 +386,71 @@ fn guards_come_before_the_first_access() {
         assert_eq!(untouched(pree.zero_pixels(&foreign)), Cause::ForeignLayout);
         assert_eq!(untouched(pree.update(&update_job(&foreign)).map(|_| ())), Cause::ForeignLayout);
         assert_eq!(untouched(pree.evaluate(&evaluate_job(&foreign)).map(|_| ())), Cause::ForeignLayout);
+    });
+}
+
+#[test]
+fn a_dropped_stream_is_taken_up_where_it_was() {
+    let layout = layout(SIZES);
+    let (front, back) = (records(0..3), records(3..4));
+    let mut script = start_update(0x020);
+    script.extend([
+        WriteBlock(0x138, &front),
+        Write(0x140, 3),
+        // Configuration, status: an update that is not flushing. Then the ring: base, entries, low, tail, head.
+        Read(0x104, 0x020),
+        Read(0x108, 1),
+        Read(0x134, 0x138),
+        Read(0x138, 8),
+        Read(0x144, 4),
+        Read(0x140, 3),
+        Read(0x13C, 2),
+        WriteBlock(0x138 + 3 * 32, &back),
+        Write(0x140, 4),
+        Write(0x100, 2),
+        // Flushing: a run.
+        Read(0x104, 0x020),
+        Read(0x108, 9),
+        Read(0x040, 1),
+        Write(0x040, 7),
+    ]);
+    check(&script, |pree| {
+        assert_eq!(pree.update(&update_job(&layout)).unwrap().push(&photons(3)), Ok(3));
+        let Resumed::Stream(mut stream) = pree.resume().unwrap() else { panic!("it was not flushed") };
+        assert_eq!((stream.pushed(), stream.room()), (3, 7));
+        assert_eq!(stream.push(&photons(4)[3..]), Ok(1));
+        let _ = stream.flush().unwrap();
+        let Resumed::Run(mut run) = pree.resume().unwrap() else { panic!("it was flushed") };
+        run.wait(Deadline::NOW).unwrap();
+        let error = pree.resume().unwrap_err();
+        assert_eq!((error.cause, error.state), (Cause::NoJob, State::Idle));
+    });
+}
+
+#[test]
+fn a_ring_that_cannot_be_is_not_taken_up() {
+    let layout = layout(SIZES);
+    let resume = |entries, tail, head| {
+        let mut script = start_update(0x020);
+        script.extend([Read(0x104, 0x020), Read(0x108, 1), Read(0x134, 0x138), Read(0x138, entries)]);
+        if entries == 8 {
+            script.extend([Read(0x144, 4), Read(0x140, tail), Read(0x13C, head)]);
+        }
+        script
+    };
+    for entries in [0, 6, 1 << 17] {
+        check(&resume(entries, 0, 0), |pree| {
+            let _ = pree.update(&update_job(&layout)).unwrap();
+            let error = pree.resume().unwrap_err();
+            let cause = Cause::Nonsense { offset: 0x138, bits: entries };
+            assert_eq!((error.cause, error.state), (cause, State::Running));
+        });
+    }
+    check(&resume(8, 3, 4), |pree| {
+        let _ = pree.update(&update_job(&layout)).unwrap();
+        let error = pree.resume().unwrap_err();
+        assert_eq!((error.cause, error.state), (Cause::RingOverrun { head: 4, tail: 3 }, State::Unknown));
+        assert_eq!(pree.resume().unwrap_err().cause, Cause::NotReady);
     });
 }
 

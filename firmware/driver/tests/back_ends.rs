@@ -100,7 +100,7 @@ fn a_traced_job_is_replayed_to_the_clock() {
     let pixels = job(Traced::new(first.bus(), sink), TracedDelay::new(first.delay(), sink)).unwrap();
     assert_eq!(pixels, PIXELS);
     let text = text.into_inner();
-    assert!(text.starts_with("r 0 4c554352\nr 4 10000\n"), "{text}");
+    assert!(text.starts_with("r 0 4c554352\nr 4 10001\n"), "{text}");
 
     let again = model(|_| {});
     let replayed = replay_timed(&text, &mut again.bus(), &mut again.delay()).unwrap();

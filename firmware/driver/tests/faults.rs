@@ -7,7 +7,10 @@ use std::collections::BTreeSet;
 use common::{Fake, SIZES, evaluate_job, hit_points, layout, model, photons, update_job};
 use embedded_hal::delay::DelayNs;
 use lucerna_bus::{Bus, Fault, Faulty, FaultyError, Model, Moment, TargetError};
-use lucerna_driver::{Cause, Counters, Deadline, DeviceError, Error, ErrorCode, Lucerna, Progress, State};
+use lucerna_driver::{
+    Cause, Counters, Deadline, DeviceError, DisplaceError, Error, ErrorCode, Lucerna, Progress, Resumed,
+    State, displace,
+};
 use lucerna_regs::ident;
 use lucerna_regs::pree::{self, Control};
 
@@ -236,6 +239,28 @@ fn a_tail_written_from_elsewhere_is_an_overrun_the_device_finds() {
 }
 
 #[test]
+fn a_driver_just_started_takes_up_the_job_it_finds() {
+    let layout = layout(SIZES);
+    let model = model(|_| {});
+    let mut lucerna = Lucerna::probe(model.bus(), model.delay()).unwrap();
+    let all = photons(40);
+    let mut pree = lucerna.pree().unwrap();
+    let mut stream = pree.update(&update_job(&layout)).unwrap();
+    stream.push_all(&all[..20], PLENTY).unwrap();
+
+    let mut next = Lucerna::probe(model.bus(), model.delay()).unwrap();
+    assert_eq!(next.state(), State::Running);
+    let mut pree = next.pree().unwrap();
+    let Resumed::Stream(mut stream) = pree.resume().unwrap() else { panic!("it takes photons") };
+    assert_eq!(stream.pushed(), 20);
+    stream.push_all(&all[20..], PLENTY).unwrap();
+    stream.finish(PLENTY).unwrap();
+    assert_eq!(model.inspect(|fake| fake.taken.len()), 40);
+    assert!((0..40).all(|number| model.inspect(|fake| fake.taken[number][0]) == (number as f32).to_bits()));
+    whole_job(&mut next).unwrap();
+}
+
+#[test]
 fn a_device_reset_under_a_job_is_not_taken_for_done() {
     let model = model(|fake| fake.asleep = true);
     let mut lucerna = Lucerna::probe(model.bus(), model.delay()).unwrap();
@@ -281,7 +306,11 @@ fn a_bus_of_ones_is_nonsense_and_not_an_error_of_the_device() {
 fn every_message_is_a_sentence_with_advice_and_the_state() {
     let device = |code| Cause::Device(DeviceError { code, address: 0x40 });
     let mut causes: Vec<Cause<TargetError>> = ErrorCode::ALL.iter().map(|code| device(*code)).collect();
+    let displace = |code| Cause::Displace(DisplaceError { code, address: 0x40 });
+    causes.extend(displace::ErrorCode::ALL.iter().map(|code| displace(*code)));
     causes.extend([
+        Cause::NoJob,
+        Cause::WrongShape,
         Cause::Bus(TargetError::Unmapped),
         Cause::WrongDevice { id: 0 },
         Cause::WrongVersion { major: 2, minor: 0 },

@@ -20,7 +20,7 @@ extern "C" {
 #define LUCERNA__IDENT__VERSION__MINOR_bm 0xffff
 #define LUCERNA__IDENT__VERSION__MINOR_bp 0
 #define LUCERNA__IDENT__VERSION__MINOR_bw 16
-#define LUCERNA__IDENT__VERSION__MINOR_reset 0x0
+#define LUCERNA__IDENT__VERSION__MINOR_reset 0x1
 #define LUCERNA__IDENT__VERSION__MAJOR_bm 0xffff0000
 #define LUCERNA__IDENT__VERSION__MAJOR_bp 16
 #define LUCERNA__IDENT__VERSION__MAJOR_bw 16
@@ -82,6 +82,14 @@ typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
 #define LUCERNA__INTERRUPTS__STATUS__RING_SPACE_bp 2
 #define LUCERNA__INTERRUPTS__STATUS__RING_SPACE_bw 1
 #define LUCERNA__INTERRUPTS__STATUS__RING_SPACE_reset 0x0
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_DONE_bm 0x8
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_DONE_bp 3
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_DONE_bw 1
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_DONE_reset 0x0
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_ERROR_bm 0x10
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_ERROR_bp 4
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_ERROR_bw 1
+#define LUCERNA__INTERRUPTS__STATUS__DISPLACE_ERROR_reset 0x0
 
 // reg - lucerna.interrupts.ENABLE
 #define LUCERNA__INTERRUPTS__ENABLE__DONE_bm 0x1
@@ -96,6 +104,14 @@ typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
 #define LUCERNA__INTERRUPTS__ENABLE__RING_SPACE_bp 2
 #define LUCERNA__INTERRUPTS__ENABLE__RING_SPACE_bw 1
 #define LUCERNA__INTERRUPTS__ENABLE__RING_SPACE_reset 0x0
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_DONE_bm 0x8
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_DONE_bp 3
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_DONE_bw 1
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_DONE_reset 0x0
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_ERROR_bm 0x10
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_ERROR_bp 4
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_ERROR_bw 1
+#define LUCERNA__INTERRUPTS__ENABLE__DISPLACE_ERROR_reset 0x0
 
 // regfile - lucerna.interrupts
 typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
@@ -592,6 +608,1172 @@ typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
     lucerna__counters__FORWARDS_t FORWARDS;
 } lucerna__counters_t;
 
+// reg - lucerna.displace.CONTROL
+#define LUCERNA__DISPLACE__CONTROL__START_bm 0x1
+#define LUCERNA__DISPLACE__CONTROL__START_bp 0
+#define LUCERNA__DISPLACE__CONTROL__START_bw 1
+#define LUCERNA__DISPLACE__CONTROL__START_reset 0x0
+#define LUCERNA__DISPLACE__CONTROL__ABORT_bm 0x2
+#define LUCERNA__DISPLACE__CONTROL__ABORT_bp 1
+#define LUCERNA__DISPLACE__CONTROL__ABORT_bw 1
+#define LUCERNA__DISPLACE__CONTROL__ABORT_reset 0x0
+
+// reg - lucerna.displace.CONFIG
+#define LUCERNA__DISPLACE__CONFIG__SOURCE_bm 0x1
+#define LUCERNA__DISPLACE__CONFIG__SOURCE_bp 0
+#define LUCERNA__DISPLACE__CONFIG__SOURCE_bw 1
+#define LUCERNA__DISPLACE__CONFIG__SOURCE_reset 0x0
+#define LUCERNA__DISPLACE__CONFIG__WRAP_bm 0x2
+#define LUCERNA__DISPLACE__CONFIG__WRAP_bp 1
+#define LUCERNA__DISPLACE__CONFIG__WRAP_bw 1
+#define LUCERNA__DISPLACE__CONFIG__WRAP_reset 0x0
+#define LUCERNA__DISPLACE__CONFIG__START_LEVEL_bm 0x4
+#define LUCERNA__DISPLACE__CONFIG__START_LEVEL_bp 2
+#define LUCERNA__DISPLACE__CONFIG__START_LEVEL_bw 1
+#define LUCERNA__DISPLACE__CONFIG__START_LEVEL_reset 0x1
+#define LUCERNA__DISPLACE__CONFIG__START_GRID_bm 0x18
+#define LUCERNA__DISPLACE__CONFIG__START_GRID_bp 3
+#define LUCERNA__DISPLACE__CONFIG__START_GRID_bw 2
+#define LUCERNA__DISPLACE__CONFIG__START_GRID_reset 0x0
+#define LUCERNA__DISPLACE__CONFIG__LEVELS_DOWN_bm 0xe0
+#define LUCERNA__DISPLACE__CONFIG__LEVELS_DOWN_bp 5
+#define LUCERNA__DISPLACE__CONFIG__LEVELS_DOWN_bw 3
+#define LUCERNA__DISPLACE__CONFIG__LEVELS_DOWN_reset 0x2
+#define LUCERNA__DISPLACE__CONFIG__ASCEND_bm 0x700
+#define LUCERNA__DISPLACE__CONFIG__ASCEND_bp 8
+#define LUCERNA__DISPLACE__CONFIG__ASCEND_bw 3
+#define LUCERNA__DISPLACE__CONFIG__ASCEND_reset 0x2
+#define LUCERNA__DISPLACE__CONFIG__COHERENT_bm 0x1800
+#define LUCERNA__DISPLACE__CONFIG__COHERENT_bp 11
+#define LUCERNA__DISPLACE__CONFIG__COHERENT_bw 2
+#define LUCERNA__DISPLACE__CONFIG__COHERENT_reset 0x0
+#define LUCERNA__DISPLACE__CONFIG__RAY_FAULTS_bm 0x2000
+#define LUCERNA__DISPLACE__CONFIG__RAY_FAULTS_bp 13
+#define LUCERNA__DISPLACE__CONFIG__RAY_FAULTS_bw 1
+#define LUCERNA__DISPLACE__CONFIG__RAY_FAULTS_reset 0x0
+#define LUCERNA__DISPLACE__CONFIG__SIBLINGS_bm 0x4000
+#define LUCERNA__DISPLACE__CONFIG__SIBLINGS_bp 14
+#define LUCERNA__DISPLACE__CONFIG__SIBLINGS_bw 1
+#define LUCERNA__DISPLACE__CONFIG__SIBLINGS_reset 0x0
+#define LUCERNA__DISPLACE__CONFIG__REACH_bm 0x18000
+#define LUCERNA__DISPLACE__CONFIG__REACH_bp 15
+#define LUCERNA__DISPLACE__CONFIG__REACH_bw 2
+#define LUCERNA__DISPLACE__CONFIG__REACH_reset 0x1
+
+// reg - lucerna.displace.STATUS
+#define LUCERNA__DISPLACE__STATUS__STATE_bm 0x3
+#define LUCERNA__DISPLACE__STATUS__STATE_bp 0
+#define LUCERNA__DISPLACE__STATUS__STATE_bw 2
+#define LUCERNA__DISPLACE__STATUS__STATE_reset 0x0
+
+// reg - lucerna.displace.ERROR
+#define LUCERNA__DISPLACE__ERROR__CODE_bm 0xff
+#define LUCERNA__DISPLACE__ERROR__CODE_bp 0
+#define LUCERNA__DISPLACE__ERROR__CODE_bw 8
+#define LUCERNA__DISPLACE__ERROR__CODE_reset 0x0
+
+// reg - lucerna.displace.FAULT_ADDRESS
+#define LUCERNA__DISPLACE__FAULT_ADDRESS__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__FAULT_ADDRESS__VALUE_bp 0
+#define LUCERNA__DISPLACE__FAULT_ADDRESS__VALUE_bw 32
+#define LUCERNA__DISPLACE__FAULT_ADDRESS__VALUE_reset 0x0
+
+// reg - lucerna.displace.RAYS_DONE
+#define LUCERNA__DISPLACE__RAYS_DONE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RAYS_DONE__VALUE_bp 0
+#define LUCERNA__DISPLACE__RAYS_DONE__VALUE_bw 32
+#define LUCERNA__DISPLACE__RAYS_DONE__VALUE_reset 0x0
+
+// reg - lucerna.displace.WATCHDOG
+#define LUCERNA__DISPLACE__WATCHDOG__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__WATCHDOG__VALUE_bp 0
+#define LUCERNA__DISPLACE__WATCHDOG__VALUE_bw 32
+#define LUCERNA__DISPLACE__WATCHDOG__VALUE_reset 0x1000
+
+// reg - lucerna.displace.MAP_BASE
+#define LUCERNA__DISPLACE__MAP_BASE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__MAP_BASE__VALUE_bp 0
+#define LUCERNA__DISPLACE__MAP_BASE__VALUE_bw 32
+#define LUCERNA__DISPLACE__MAP_BASE__VALUE_reset 0x0
+
+// reg - lucerna.displace.MAP_SIZE
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_WIDTH_bm 0xf
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_WIDTH_bp 0
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_WIDTH_bw 4
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_WIDTH_reset 0x0
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_HEIGHT_bm 0xf00
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_HEIGHT_bp 8
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_HEIGHT_bw 4
+#define LUCERNA__DISPLACE__MAP_SIZE__LOG2_HEIGHT_reset 0x0
+
+// reg - lucerna.displace.TEXTURE_BASE
+#define LUCERNA__DISPLACE__TEXTURE_BASE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__TEXTURE_BASE__VALUE_bp 0
+#define LUCERNA__DISPLACE__TEXTURE_BASE__VALUE_bw 32
+#define LUCERNA__DISPLACE__TEXTURE_BASE__VALUE_reset 0x0
+
+// reg - lucerna.displace.TEXTURE_SIZE
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_WIDTH_bm 0xf
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_WIDTH_bp 0
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_WIDTH_bw 4
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_WIDTH_reset 0x0
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_HEIGHT_bm 0xf00
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_HEIGHT_bp 8
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_HEIGHT_bw 4
+#define LUCERNA__DISPLACE__TEXTURE_SIZE__LOG2_HEIGHT_reset 0x0
+
+// reg - lucerna.displace.NORMAL_BASE
+#define LUCERNA__DISPLACE__NORMAL_BASE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__NORMAL_BASE__VALUE_bp 0
+#define LUCERNA__DISPLACE__NORMAL_BASE__VALUE_bw 32
+#define LUCERNA__DISPLACE__NORMAL_BASE__VALUE_reset 0x0
+
+// reg - lucerna.displace.NORMAL_SIZE
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_WIDTH_bm 0xf
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_WIDTH_bp 0
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_WIDTH_bw 4
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_WIDTH_reset 0x0
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_HEIGHT_bm 0xf00
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_HEIGHT_bp 8
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_HEIGHT_bw 4
+#define LUCERNA__DISPLACE__NORMAL_SIZE__LOG2_HEIGHT_reset 0x0
+
+// reg - lucerna.displace.RAY_BASE
+#define LUCERNA__DISPLACE__RAY_BASE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RAY_BASE__VALUE_bp 0
+#define LUCERNA__DISPLACE__RAY_BASE__VALUE_bw 32
+#define LUCERNA__DISPLACE__RAY_BASE__VALUE_reset 0x0
+
+// reg - lucerna.displace.RAY_COUNT
+#define LUCERNA__DISPLACE__RAY_COUNT__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RAY_COUNT__VALUE_bp 0
+#define LUCERNA__DISPLACE__RAY_COUNT__VALUE_bw 32
+#define LUCERNA__DISPLACE__RAY_COUNT__VALUE_reset 0x0
+
+// reg - lucerna.displace.RASTER_SIZE
+#define LUCERNA__DISPLACE__RASTER_SIZE__WIDTH_bm 0xffff
+#define LUCERNA__DISPLACE__RASTER_SIZE__WIDTH_bp 0
+#define LUCERNA__DISPLACE__RASTER_SIZE__WIDTH_bw 16
+#define LUCERNA__DISPLACE__RASTER_SIZE__WIDTH_reset 0x0
+#define LUCERNA__DISPLACE__RASTER_SIZE__HEIGHT_bm 0xffff0000
+#define LUCERNA__DISPLACE__RASTER_SIZE__HEIGHT_bp 16
+#define LUCERNA__DISPLACE__RASTER_SIZE__HEIGHT_bw 16
+#define LUCERNA__DISPLACE__RASTER_SIZE__HEIGHT_reset 0x0
+
+// reg - lucerna.displace.RESULT_BASE
+#define LUCERNA__DISPLACE__RESULT_BASE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RESULT_BASE__VALUE_bp 0
+#define LUCERNA__DISPLACE__RESULT_BASE__VALUE_bw 32
+#define LUCERNA__DISPLACE__RESULT_BASE__VALUE_reset 0x0
+
+// reg - lucerna.displace.HEIGHT_SCALE
+#define LUCERNA__DISPLACE__HEIGHT_SCALE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__HEIGHT_SCALE__VALUE_bp 0
+#define LUCERNA__DISPLACE__HEIGHT_SCALE__VALUE_bw 32
+#define LUCERNA__DISPLACE__HEIGHT_SCALE__VALUE_reset 0x0
+
+// reg - lucerna.displace.TANGENT_X
+#define LUCERNA__DISPLACE__TANGENT_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__TANGENT_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__TANGENT_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__TANGENT_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.TANGENT_Y
+#define LUCERNA__DISPLACE__TANGENT_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__TANGENT_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__TANGENT_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__TANGENT_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.TANGENT_Z
+#define LUCERNA__DISPLACE__TANGENT_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__TANGENT_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__TANGENT_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__TANGENT_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.BITANGENT_X
+#define LUCERNA__DISPLACE__BITANGENT_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__BITANGENT_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__BITANGENT_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__BITANGENT_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.BITANGENT_Y
+#define LUCERNA__DISPLACE__BITANGENT_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__BITANGENT_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__BITANGENT_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__BITANGENT_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.BITANGENT_Z
+#define LUCERNA__DISPLACE__BITANGENT_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__BITANGENT_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__BITANGENT_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__BITANGENT_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.NORMAL_X
+#define LUCERNA__DISPLACE__NORMAL_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__NORMAL_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__NORMAL_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__NORMAL_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.NORMAL_Y
+#define LUCERNA__DISPLACE__NORMAL_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__NORMAL_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__NORMAL_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__NORMAL_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.NORMAL_Z
+#define LUCERNA__DISPLACE__NORMAL_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__NORMAL_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__NORMAL_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__NORMAL_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.EYE_U
+#define LUCERNA__DISPLACE__EYE_U__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__EYE_U__VALUE_bp 0
+#define LUCERNA__DISPLACE__EYE_U__VALUE_bw 32
+#define LUCERNA__DISPLACE__EYE_U__VALUE_reset 0x0
+
+// reg - lucerna.displace.EYE_V
+#define LUCERNA__DISPLACE__EYE_V__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__EYE_V__VALUE_bp 0
+#define LUCERNA__DISPLACE__EYE_V__VALUE_bw 32
+#define LUCERNA__DISPLACE__EYE_V__VALUE_reset 0x0
+
+// reg - lucerna.displace.EYE_HEIGHT
+#define LUCERNA__DISPLACE__EYE_HEIGHT__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__EYE_HEIGHT__VALUE_bp 0
+#define LUCERNA__DISPLACE__EYE_HEIGHT__VALUE_bw 32
+#define LUCERNA__DISPLACE__EYE_HEIGHT__VALUE_reset 0x0
+
+// reg - lucerna.displace.EXTENT_U
+#define LUCERNA__DISPLACE__EXTENT_U__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__EXTENT_U__VALUE_bp 0
+#define LUCERNA__DISPLACE__EXTENT_U__VALUE_bw 32
+#define LUCERNA__DISPLACE__EXTENT_U__VALUE_reset 0x0
+
+// reg - lucerna.displace.EXTENT_V
+#define LUCERNA__DISPLACE__EXTENT_V__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__EXTENT_V__VALUE_bp 0
+#define LUCERNA__DISPLACE__EXTENT_V__VALUE_bw 32
+#define LUCERNA__DISPLACE__EXTENT_V__VALUE_reset 0x0
+
+// reg - lucerna.displace.ORIGIN_X
+#define LUCERNA__DISPLACE__ORIGIN_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__ORIGIN_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__ORIGIN_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__ORIGIN_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.ORIGIN_Y
+#define LUCERNA__DISPLACE__ORIGIN_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__ORIGIN_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__ORIGIN_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__ORIGIN_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.ORIGIN_Z
+#define LUCERNA__DISPLACE__ORIGIN_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__ORIGIN_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__ORIGIN_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__ORIGIN_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.RIGHT_X
+#define LUCERNA__DISPLACE__RIGHT_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RIGHT_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__RIGHT_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__RIGHT_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.RIGHT_Y
+#define LUCERNA__DISPLACE__RIGHT_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RIGHT_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__RIGHT_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__RIGHT_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.RIGHT_Z
+#define LUCERNA__DISPLACE__RIGHT_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__RIGHT_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__RIGHT_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__RIGHT_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.DOWN_X
+#define LUCERNA__DISPLACE__DOWN_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__DOWN_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__DOWN_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__DOWN_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.DOWN_Y
+#define LUCERNA__DISPLACE__DOWN_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__DOWN_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__DOWN_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__DOWN_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.DOWN_Z
+#define LUCERNA__DISPLACE__DOWN_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__DOWN_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__DOWN_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__DOWN_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.LIGHT_X
+#define LUCERNA__DISPLACE__LIGHT_X__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__LIGHT_X__VALUE_bp 0
+#define LUCERNA__DISPLACE__LIGHT_X__VALUE_bw 32
+#define LUCERNA__DISPLACE__LIGHT_X__VALUE_reset 0x0
+
+// reg - lucerna.displace.LIGHT_Y
+#define LUCERNA__DISPLACE__LIGHT_Y__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__LIGHT_Y__VALUE_bp 0
+#define LUCERNA__DISPLACE__LIGHT_Y__VALUE_bw 32
+#define LUCERNA__DISPLACE__LIGHT_Y__VALUE_reset 0x0
+
+// reg - lucerna.displace.LIGHT_Z
+#define LUCERNA__DISPLACE__LIGHT_Z__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__LIGHT_Z__VALUE_bp 0
+#define LUCERNA__DISPLACE__LIGHT_Z__VALUE_bw 32
+#define LUCERNA__DISPLACE__LIGHT_Z__VALUE_reset 0x0
+
+// reg - lucerna.displace.AMBIENT
+#define LUCERNA__DISPLACE__AMBIENT__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__AMBIENT__VALUE_bp 0
+#define LUCERNA__DISPLACE__AMBIENT__VALUE_bw 32
+#define LUCERNA__DISPLACE__AMBIENT__VALUE_reset 0x0
+
+// reg - lucerna.displace.DIFFUSE
+#define LUCERNA__DISPLACE__DIFFUSE__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE__DIFFUSE__VALUE_bp 0
+#define LUCERNA__DISPLACE__DIFFUSE__VALUE_bw 32
+#define LUCERNA__DISPLACE__DIFFUSE__VALUE_reset 0x0
+
+// reg - lucerna.displace.BACKGROUND
+#define LUCERNA__DISPLACE__BACKGROUND__BLUE_bm 0xff
+#define LUCERNA__DISPLACE__BACKGROUND__BLUE_bp 0
+#define LUCERNA__DISPLACE__BACKGROUND__BLUE_bw 8
+#define LUCERNA__DISPLACE__BACKGROUND__BLUE_reset 0x0
+#define LUCERNA__DISPLACE__BACKGROUND__GREEN_bm 0xff00
+#define LUCERNA__DISPLACE__BACKGROUND__GREEN_bp 8
+#define LUCERNA__DISPLACE__BACKGROUND__GREEN_bw 8
+#define LUCERNA__DISPLACE__BACKGROUND__GREEN_reset 0x0
+#define LUCERNA__DISPLACE__BACKGROUND__RED_bm 0xff0000
+#define LUCERNA__DISPLACE__BACKGROUND__RED_bp 16
+#define LUCERNA__DISPLACE__BACKGROUND__RED_bw 8
+#define LUCERNA__DISPLACE__BACKGROUND__RED_reset 0x0
+
+// reg - lucerna.displace.PIPELINE
+#define LUCERNA__DISPLACE__PIPELINE__UNITS_bm 0xf
+#define LUCERNA__DISPLACE__PIPELINE__UNITS_bp 0
+#define LUCERNA__DISPLACE__PIPELINE__UNITS_bw 4
+#define LUCERNA__DISPLACE__PIPELINE__STAGES_bm 0xff00
+#define LUCERNA__DISPLACE__PIPELINE__STAGES_bp 8
+#define LUCERNA__DISPLACE__PIPELINE__STAGES_bw 8
+#define LUCERNA__DISPLACE__PIPELINE__STAGES_reset 0xf
+#define LUCERNA__DISPLACE__PIPELINE__FILL_LATENCY_bm 0xffff0000
+#define LUCERNA__DISPLACE__PIPELINE__FILL_LATENCY_bp 16
+#define LUCERNA__DISPLACE__PIPELINE__FILL_LATENCY_bw 16
+
+// reg - lucerna.displace.HEIGHT_CACHE
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__LOG2_BYTES_bm 0xff
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__LOG2_BYTES_bp 0
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__LOG2_BYTES_bw 8
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__WAYS_bm 0xff00
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__WAYS_bp 8
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__WAYS_bw 8
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__LINE_BYTES_bm 0xffff0000
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__LINE_BYTES_bp 16
+#define LUCERNA__DISPLACE__HEIGHT_CACHE__LINE_BYTES_bw 16
+
+// reg - lucerna.displace.TEXTURE_CACHE
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__LOG2_BYTES_bm 0xff
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__LOG2_BYTES_bp 0
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__LOG2_BYTES_bw 8
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__WAYS_bm 0xff00
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__WAYS_bp 8
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__WAYS_bw 8
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__LINE_BYTES_bm 0xffff0000
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__LINE_BYTES_bp 16
+#define LUCERNA__DISPLACE__TEXTURE_CACHE__LINE_BYTES_bw 16
+
+// reg - lucerna.displace.FIFOS
+#define LUCERNA__DISPLACE__FIFOS__FIFO0_bm 0xff
+#define LUCERNA__DISPLACE__FIFOS__FIFO0_bp 0
+#define LUCERNA__DISPLACE__FIFOS__FIFO0_bw 8
+#define LUCERNA__DISPLACE__FIFOS__FIFO1_bm 0xff00
+#define LUCERNA__DISPLACE__FIFOS__FIFO1_bp 8
+#define LUCERNA__DISPLACE__FIFOS__FIFO1_bw 8
+#define LUCERNA__DISPLACE__FIFOS__PORT_BYTES_bm 0xff0000
+#define LUCERNA__DISPLACE__FIFOS__PORT_BYTES_bp 16
+#define LUCERNA__DISPLACE__FIFOS__PORT_BYTES_bw 8
+
+// regfile - lucerna.displace
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t CONTROL;
+    uint32_t CONFIG;
+    uint32_t STATUS;
+    uint32_t ERROR;
+    uint32_t FAULT_ADDRESS;
+    uint32_t RAYS_DONE;
+    uint32_t WATCHDOG;
+    uint32_t MAP_BASE;
+    uint32_t MAP_SIZE;
+    uint32_t TEXTURE_BASE;
+    uint32_t TEXTURE_SIZE;
+    uint32_t NORMAL_BASE;
+    uint32_t NORMAL_SIZE;
+    uint32_t RAY_BASE;
+    uint32_t RAY_COUNT;
+    uint32_t RASTER_SIZE;
+    uint32_t RESULT_BASE;
+    uint32_t HEIGHT_SCALE;
+    uint32_t TANGENT_X;
+    uint32_t TANGENT_Y;
+    uint32_t TANGENT_Z;
+    uint32_t BITANGENT_X;
+    uint32_t BITANGENT_Y;
+    uint32_t BITANGENT_Z;
+    uint32_t NORMAL_X;
+    uint32_t NORMAL_Y;
+    uint32_t NORMAL_Z;
+    uint32_t EYE_U;
+    uint32_t EYE_V;
+    uint32_t EYE_HEIGHT;
+    uint32_t EXTENT_U;
+    uint32_t EXTENT_V;
+    uint32_t ORIGIN_X;
+    uint32_t ORIGIN_Y;
+    uint32_t ORIGIN_Z;
+    uint32_t RIGHT_X;
+    uint32_t RIGHT_Y;
+    uint32_t RIGHT_Z;
+    uint32_t DOWN_X;
+    uint32_t DOWN_Y;
+    uint32_t DOWN_Z;
+    uint32_t LIGHT_X;
+    uint32_t LIGHT_Y;
+    uint32_t LIGHT_Z;
+    uint32_t AMBIENT;
+    uint32_t DIFFUSE;
+    uint32_t BACKGROUND;
+    uint8_t RESERVED_bc_bf[0x4];
+    uint32_t PIPELINE;
+    uint32_t HEIGHT_CACHE;
+    uint32_t TEXTURE_CACHE;
+    uint32_t FIFOS;
+} lucerna__displace_t;
+
+// reg - lucerna.displace_counters.CONTROL
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__SNAPSHOT_bm 0x1
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__SNAPSHOT_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__SNAPSHOT_bw 1
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__SNAPSHOT_reset 0x0
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__CLEAR_bm 0x2
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__CLEAR_bp 1
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__CLEAR_bw 1
+#define LUCERNA__DISPLACE_COUNTERS__CONTROL__CLEAR_reset 0x0
+
+// reg - lucerna.displace_counters.RAYS.LO
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.RAYS.HI
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__RAYS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.RAYS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__RAYS_t;
+
+// reg - lucerna.displace_counters.HITS.LO
+#define LUCERNA__DISPLACE_COUNTERS__HITS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HITS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HITS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HITS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.HITS.HI
+#define LUCERNA__DISPLACE_COUNTERS__HITS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HITS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HITS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HITS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.HITS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__HITS_t;
+
+// reg - lucerna.displace_counters.MISSED.LO
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.MISSED.HI
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__MISSED__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.MISSED
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__MISSED_t;
+
+// reg - lucerna.displace_counters.GRAZING.LO
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.GRAZING.HI
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__GRAZING__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.GRAZING
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__GRAZING_t;
+
+// reg - lucerna.displace_counters.WATCHDOGS.LO
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.WATCHDOGS.HI
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__WATCHDOGS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.WATCHDOGS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__WATCHDOGS_t;
+
+// reg - lucerna.displace_counters.STEPS.LO
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.STEPS.HI
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__STEPS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.STEPS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__STEPS_t;
+
+// reg - lucerna.displace_counters.MAX_STEPS.LO
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.MAX_STEPS.HI
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__MAX_STEPS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.MAX_STEPS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__MAX_STEPS_t;
+
+// reg - lucerna.displace_counters.START_PASSES.LO
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.START_PASSES.HI
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__START_PASSES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.START_PASSES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__START_PASSES_t;
+
+// reg - lucerna.displace_counters.LEVELS_SAVED.LO
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.LEVELS_SAVED.HI
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__LEVELS_SAVED__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.LEVELS_SAVED
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__LEVELS_SAVED_t;
+
+// reg - lucerna.displace_counters.CROSSINGS.LO
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.CROSSINGS.HI
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__CROSSINGS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.CROSSINGS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__CROSSINGS_t;
+
+// reg - lucerna.displace_counters.LEVEL_UPS.LO
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.LEVEL_UPS.HI
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_UPS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.LEVEL_UPS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__LEVEL_UPS_t;
+
+// reg - lucerna.displace_counters.LEVEL_DOWNS.LO
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.LEVEL_DOWNS.HI
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__LEVEL_DOWNS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.LEVEL_DOWNS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__LEVEL_DOWNS_t;
+
+// reg - lucerna.displace_counters.CYCLES.LO
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.CYCLES.HI
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__CYCLES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.CYCLES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__CYCLES_t;
+
+// reg - lucerna.displace_counters.VIEW_BUSY.LO
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.VIEW_BUSY.HI
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_BUSY__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.VIEW_BUSY
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__VIEW_BUSY_t;
+
+// reg - lucerna.displace_counters.VIEW_STALLS.LO
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.VIEW_STALLS.HI
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__VIEW_STALLS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.VIEW_STALLS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__VIEW_STALLS_t;
+
+// reg - lucerna.displace_counters.TRAVERSE_BUSY.LO
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TRAVERSE_BUSY.HI
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUSY__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TRAVERSE_BUSY
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TRAVERSE_BUSY_t;
+
+// reg - lucerna.displace_counters.TRAVERSE_WAITS.LO
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TRAVERSE_WAITS.HI
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_WAITS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TRAVERSE_WAITS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TRAVERSE_WAITS_t;
+
+// reg - lucerna.displace_counters.TRAVERSE_STALLS.LO
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TRAVERSE_STALLS.HI
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_STALLS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TRAVERSE_STALLS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TRAVERSE_STALLS_t;
+
+// reg - lucerna.displace_counters.TRAVERSE_BUBBLES.LO
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TRAVERSE_BUBBLES.HI
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TRAVERSE_BUBBLES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TRAVERSE_BUBBLES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TRAVERSE_BUBBLES_t;
+
+// reg - lucerna.displace_counters.ADDRESS_BUSY.LO
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.ADDRESS_BUSY.HI
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_BUSY__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.ADDRESS_BUSY
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__ADDRESS_BUSY_t;
+
+// reg - lucerna.displace_counters.ADDRESS_STALLS.LO
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.ADDRESS_STALLS.HI
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__ADDRESS_STALLS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.ADDRESS_STALLS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__ADDRESS_STALLS_t;
+
+// reg - lucerna.displace_counters.READ_BUSY.LO
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.READ_BUSY.HI
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__READ_BUSY__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.READ_BUSY
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__READ_BUSY_t;
+
+// reg - lucerna.displace_counters.READ_STALLS.LO
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.READ_STALLS.HI
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__READ_STALLS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.READ_STALLS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__READ_STALLS_t;
+
+// reg - lucerna.displace_counters.COLOUR_BUSY.LO
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.COLOUR_BUSY.HI
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__COLOUR_BUSY__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.COLOUR_BUSY
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__COLOUR_BUSY_t;
+
+// reg - lucerna.displace_counters.HEIGHT_ACCESSES.LO
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.HEIGHT_ACCESSES.HI
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_ACCESSES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.HEIGHT_ACCESSES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__HEIGHT_ACCESSES_t;
+
+// reg - lucerna.displace_counters.HEIGHT_HITS.LO
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.HEIGHT_HITS.HI
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_HITS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.HEIGHT_HITS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__HEIGHT_HITS_t;
+
+// reg - lucerna.displace_counters.HEIGHT_MISSES.LO
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.HEIGHT_MISSES.HI
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_MISSES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.HEIGHT_MISSES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__HEIGHT_MISSES_t;
+
+// reg - lucerna.displace_counters.HEIGHT_FILLS.LO
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.HEIGHT_FILLS.HI
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FILLS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.HEIGHT_FILLS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__HEIGHT_FILLS_t;
+
+// reg - lucerna.displace_counters.HEIGHT_FORWARDS.LO
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.HEIGHT_FORWARDS.HI
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__HEIGHT_FORWARDS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.HEIGHT_FORWARDS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__HEIGHT_FORWARDS_t;
+
+// reg - lucerna.displace_counters.TEXTURE_ACCESSES.LO
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TEXTURE_ACCESSES.HI
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_ACCESSES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TEXTURE_ACCESSES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TEXTURE_ACCESSES_t;
+
+// reg - lucerna.displace_counters.TEXTURE_HITS.LO
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TEXTURE_HITS.HI
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_HITS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TEXTURE_HITS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TEXTURE_HITS_t;
+
+// reg - lucerna.displace_counters.TEXTURE_MISSES.LO
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TEXTURE_MISSES.HI
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_MISSES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TEXTURE_MISSES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TEXTURE_MISSES_t;
+
+// reg - lucerna.displace_counters.TEXTURE_FILLS.LO
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.TEXTURE_FILLS.HI
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__TEXTURE_FILLS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.TEXTURE_FILLS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__TEXTURE_FILLS_t;
+
+// reg - lucerna.displace_counters.PORT_BYTES.LO
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.PORT_BYTES.HI
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BYTES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.PORT_BYTES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__PORT_BYTES_t;
+
+// reg - lucerna.displace_counters.PORT_BUSY.LO
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.PORT_BUSY.HI
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__PORT_BUSY__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.PORT_BUSY
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__PORT_BUSY_t;
+
+// reg - lucerna.displace_counters.RESULT_BYTES.LO
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.RESULT_BYTES.HI
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__RESULT_BYTES__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.RESULT_BYTES
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__RESULT_BYTES_t;
+
+// reg - lucerna.displace_counters.FOLDS.LO
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__LO__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__LO__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__LO__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__LO__VALUE_reset 0x0
+
+// reg - lucerna.displace_counters.FOLDS.HI
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__HI__VALUE_bm 0xffffffff
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__HI__VALUE_bp 0
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__HI__VALUE_bw 32
+#define LUCERNA__DISPLACE_COUNTERS__FOLDS__HI__VALUE_reset 0x0
+
+// regfile - lucerna.displace_counters.FOLDS
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t LO;
+    uint32_t HI;
+} lucerna__displace_counters__FOLDS_t;
+
+// regfile - lucerna.displace_counters
+typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
+    uint32_t CONTROL;
+    uint8_t RESERVED_4_7[0x4];
+    lucerna__displace_counters__RAYS_t RAYS;
+    lucerna__displace_counters__HITS_t HITS;
+    lucerna__displace_counters__MISSED_t MISSED;
+    lucerna__displace_counters__GRAZING_t GRAZING;
+    lucerna__displace_counters__WATCHDOGS_t WATCHDOGS;
+    lucerna__displace_counters__STEPS_t STEPS;
+    lucerna__displace_counters__MAX_STEPS_t MAX_STEPS;
+    lucerna__displace_counters__START_PASSES_t START_PASSES;
+    lucerna__displace_counters__LEVELS_SAVED_t LEVELS_SAVED;
+    lucerna__displace_counters__CROSSINGS_t CROSSINGS;
+    lucerna__displace_counters__LEVEL_UPS_t LEVEL_UPS;
+    lucerna__displace_counters__LEVEL_DOWNS_t LEVEL_DOWNS;
+    lucerna__displace_counters__CYCLES_t CYCLES;
+    lucerna__displace_counters__VIEW_BUSY_t VIEW_BUSY;
+    lucerna__displace_counters__VIEW_STALLS_t VIEW_STALLS;
+    lucerna__displace_counters__TRAVERSE_BUSY_t TRAVERSE_BUSY;
+    lucerna__displace_counters__TRAVERSE_WAITS_t TRAVERSE_WAITS;
+    lucerna__displace_counters__TRAVERSE_STALLS_t TRAVERSE_STALLS;
+    lucerna__displace_counters__TRAVERSE_BUBBLES_t TRAVERSE_BUBBLES;
+    lucerna__displace_counters__ADDRESS_BUSY_t ADDRESS_BUSY;
+    lucerna__displace_counters__ADDRESS_STALLS_t ADDRESS_STALLS;
+    lucerna__displace_counters__READ_BUSY_t READ_BUSY;
+    lucerna__displace_counters__READ_STALLS_t READ_STALLS;
+    lucerna__displace_counters__COLOUR_BUSY_t COLOUR_BUSY;
+    lucerna__displace_counters__HEIGHT_ACCESSES_t HEIGHT_ACCESSES;
+    lucerna__displace_counters__HEIGHT_HITS_t HEIGHT_HITS;
+    lucerna__displace_counters__HEIGHT_MISSES_t HEIGHT_MISSES;
+    lucerna__displace_counters__HEIGHT_FILLS_t HEIGHT_FILLS;
+    lucerna__displace_counters__HEIGHT_FORWARDS_t HEIGHT_FORWARDS;
+    lucerna__displace_counters__TEXTURE_ACCESSES_t TEXTURE_ACCESSES;
+    lucerna__displace_counters__TEXTURE_HITS_t TEXTURE_HITS;
+    lucerna__displace_counters__TEXTURE_MISSES_t TEXTURE_MISSES;
+    lucerna__displace_counters__TEXTURE_FILLS_t TEXTURE_FILLS;
+    lucerna__displace_counters__PORT_BYTES_t PORT_BYTES;
+    lucerna__displace_counters__PORT_BUSY_t PORT_BUSY;
+    lucerna__displace_counters__RESULT_BYTES_t RESULT_BYTES;
+    lucerna__displace_counters__FOLDS_t FOLDS;
+} lucerna__displace_counters_t;
+
 // addrmap - lucerna
 typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
     lucerna__ident_t ident;
@@ -603,10 +1785,14 @@ typedef struct __attribute__ ((__packed__, __aligned__ (4))) {
     lucerna__pree_t pree;
     uint8_t RESERVED_148_1ff[0xb8];
     lucerna__counters_t counters;
+    uint8_t RESERVED_280_2ff[0x80];
+    lucerna__displace_t displace;
+    uint8_t RESERVED_3d0_3ff[0x30];
+    lucerna__displace_counters_t displace_counters;
 } lucerna_t;
 
 
-static_assert(sizeof(lucerna_t) == 0x280, "Packing error");
+static_assert(sizeof(lucerna_t) == 0x530, "Packing error");
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,9 @@
 //! | [`interrupts`] | `0x040` | status (write 1 to clear) and enable of the one interrupt line |
 //! | [`window`] | `0x080` | four windows; the device touches no memory outside |
 //! | [`pree`] | `0x100` | the progressive radiance estimation engine: configuration, buffers, ring, state, error |
-//! | [`counters`] | `0x200` | 64-bit counters, read from a snapshot |
+//! | [`counters`] | `0x200` | its 64-bit counters, read from a snapshot |
+//! | [`displace`] | `0x300` | the pyramidal displacement mapping unit: policies, maps, rays, shading, state, error |
+//! | [`displace_counters`] | `0x400` | its 64-bit counters, read from a snapshot |
 //!
 //! An offset is a constant, `pree::CONFIG`; a register with fields has a type, `pree::Config`; a register which is one number
 //! (`pree::HIT_BASE`) is a plain `u32`. A type holds any word: an illegal encoding gives [`Illegal`] when its field is read.
@@ -38,11 +40,15 @@
 mod generated;
 pub mod register;
 
-pub use generated::{BLOCKS, REGISTERS, counters, ident, interrupts, pree, window};
-pub use register::{Block, Description, Field, Illegal, Register};
+pub use generated::{
+    BLOCKS, REGISTERS, counters, displace, displace_counters, ident, interrupts, pree, window,
+};
+pub use register::{Block, Description, Field, Half, Illegal, Register};
 
 /// The unit bit of the PREE in `CAPABILITIES.UNITS`.
 pub const UNIT_PREE: u32 = 1 << 0;
+/// The unit bit of the displacement unit in `CAPABILITIES.UNITS`.
+pub const UNIT_DISPLACE: u32 = 1 << 1;
 
 /// The table entry of the register at a byte offset, if there is one.
 pub fn describe(offset: u32) -> Option<&'static Description> {

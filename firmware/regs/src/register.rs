@@ -89,6 +89,25 @@ pub struct Block {
     pub stride: u32,
 }
 
+/// A half of a 64-bit counter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Half {
+    /// Bits 31 to 0.
+    Low,
+    /// Bits 63 to 32.
+    High,
+}
+
+impl Half {
+    /// These 32 bits of a count.
+    pub const fn of(self, count: u64) -> u32 {
+        match self {
+            Self::Low => count as u32,
+            Self::High => (count >> 32) as u32,
+        }
+    }
+}
+
 /// A field holds bits which its encoding does not define.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

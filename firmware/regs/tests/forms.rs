@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use lucerna_regs::pree::ErrorCode;
-use lucerna_regs::{REGISTERS, describe};
+use lucerna_regs::{REGISTERS, describe, displace, pree};
 use svd_parser::svd::{Access, Field, ModifiedWriteValues, Register, RegisterCluster};
 use svd_parser::{Config, ValidateLevel};
 
@@ -62,13 +61,16 @@ fn svd_has_the_same_registers_and_fields() {
 
 #[test]
 fn svd_has_the_error_codes() {
-    let code = field_of(&svd()[&lucerna_regs::pree::ERROR], "CODE");
-    let values = &code.enumerated_values[0].values;
-    let names: Vec<_> = values
-        .iter()
-        .map(|v| (v.value.expect("value") as u32, v.name.to_lowercase().replace('_', " ")))
-        .collect();
-    assert_eq!(names, ErrorCode::ALL.map(|code| (code.bits(), code.name().to_owned())));
+    let codes = |offset| {
+        let code = field_of(&svd()[&offset], "CODE");
+        let values = &code.enumerated_values[0].values;
+        let named =
+            values.iter().map(|v| (v.value.expect("value") as u32, v.name.to_lowercase().replace('_', " ")));
+        named.collect::<Vec<_>>()
+    };
+    assert_eq!(codes(pree::ERROR), pree::ErrorCode::ALL.map(|code| (code.bits(), code.name().to_owned())));
+    let displace = displace::ErrorCode::ALL.map(|code| (code.bits(), code.name().to_owned()));
+    assert_eq!(codes(displace::ERROR), displace);
 }
 
 /// The C header gives fields by name and place, and the whole by its size.
@@ -85,9 +87,10 @@ fn c_header_has_the_same_fields() {
             assert!(header.contains(&line), "{line}");
         }
     }
-    assert!(header.contains("sizeof(lucerna_t) == 0x280"));
+    assert!(header.contains("sizeof(lucerna_t) == 0x530"));
     let encodings = read("include/lucerna_encodings.h");
     assert!(encodings.contains("#define LUCERNA__PREE__ERROR__CODE__TOO_LARGE 9 "));
+    assert!(encodings.contains("#define LUCERNA__DISPLACE__ERROR__CODE__TOO_LARGE 3 "));
 }
 
 #[test]
@@ -99,8 +102,9 @@ fn documents_name_every_register_and_error() {
             assert!(text.contains(&format!("{name} register")), "{document}: {name}");
             assert!(text.contains(&format!("Absolute Address: {:#X}", register.offset).replace("0X", "0x")));
         }
-        for code in ErrorCode::ALL {
-            let name = code.name().to_uppercase().replace(' ', "_");
+        let names = pree::ErrorCode::ALL.map(|code| code.name());
+        for name in names.into_iter().chain(displace::ErrorCode::ALL.map(|code| code.name())) {
+            let name = name.to_uppercase().replace(' ', "_");
             assert!(text.contains(&name), "{document}: {name}");
         }
         assert!(!text.contains("http"), "{document} must not need a network");

@@ -23,6 +23,7 @@ def paragraphs(text):
 
 def rust_doc(text, indent=0, mark="///"):
     lead = " " * indent + mark
+    text = re.sub(r"\[(\d+)\]", r"\\[\1\\]", text or "")  # a reference of a paper is no link
     blocks = [textwrap.wrap(p, 110 - len(lead) - 1, break_long_words=False) for p in paragraphs(text)]
     lines = []
     for number, block in enumerate(blocks):

@@ -4,6 +4,8 @@
 //! and adds the words of its flux to its pixel. Knobs make it fail.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub mod displacer;
+
 use embedded_hal::delay::DelayNs;
 use lucerna_bus::{Model, Target, TargetError};
 use lucerna_driver::{

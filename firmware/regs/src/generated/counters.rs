@@ -3,6 +3,7 @@
 //! Counts run on in the device; what is read here is the snapshot, taken of all of them in one cycle, so that
 //! LO and HI of all counters belong together. Counts accumulate over jobs until cleared.
 
+pub use crate::register::Half;
 use crate::register::{Field, Register};
 
 /// Byte offset of CONTROL: Counter control. Write-only pulses; reads as 0. Both at once take the snapshot
@@ -132,25 +133,6 @@ pub enum Counter {
     PixelConflicts = 13,
     /// Operands taken from the datapath instead of memory; 0 unless the policy is FORWARD (D7).
     Forwards = 14,
-}
-
-/// A half of a 64-bit counter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Half {
-    /// Bits 31 to 0.
-    Low,
-    /// Bits 63 to 32.
-    High,
-}
-
-impl Half {
-    /// These 32 bits of a count.
-    pub const fn of(self, count: u64) -> u32 {
-        match self {
-            Self::Low => count as u32,
-            Self::High => (count >> 32) as u32,
-        }
-    }
 }
 
 impl Counter {

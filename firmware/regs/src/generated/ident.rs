@@ -21,8 +21,8 @@ pub const VERSION: u32 = 0x004;
 ///
 /// Fields: [`Capabilities`].
 pub const CAPABILITIES: u32 = 0x008;
-/// Byte offset of PIPELINE: Pipeline depths. Latencies in cycles, so that a driver can bound its waits and a
-/// report can name fill and drain.
+/// Byte offset of PIPELINE: Pipeline depths. Latencies of the PREE in cycles, 0 without one, so that a driver
+/// can bound its waits and a report can name fill and drain.
 ///
 /// Fields: [`Pipeline`].
 pub const PIPELINE: u32 = 0x00C;
@@ -41,11 +41,14 @@ pub enum NumberFormat {
     F32 = 0,
     /// 1 sign, 7 exponent, 16 fraction bits, in the low 24 bits of a word.
     F24 = 1,
+    /// A study format, which models on a host have and no hardware: numbers of registers and records are f32,
+    /// those inside the datapath binary64.
+    F64 = 2,
 }
 
 impl NumberFormat {
     /// Every legal value, in the order of its bits.
-    pub const ALL: [Self; 2] = [Self::F32, Self::F24];
+    pub const ALL: [Self; 3] = [Self::F32, Self::F24, Self::F64];
 
     /// Decodes a field's value.
     ///
@@ -55,6 +58,7 @@ impl NumberFormat {
         match bits {
             0 => Ok(Self::F32),
             1 => Ok(Self::F24),
+            2 => Ok(Self::F64),
             _ => Err(Illegal { bits }),
         }
     }
@@ -69,6 +73,7 @@ impl NumberFormat {
         match self {
             Self::F32 => "f32",
             Self::F24 => "f24",
+            Self::F64 => "f64",
         }
     }
 }
@@ -90,7 +95,7 @@ pub struct Version(u32);
 
 impl Version {
     /// Value after reset.
-    pub const RESET: Self = Self(0x1_0000);
+    pub const RESET: Self = Self(0x1_0001);
     /// All fields, from the lowest bit up.
     pub const FIELDS: &'static [Field] = &[Self::MINOR, Self::MAJOR];
     /// Place of MINOR.
@@ -143,7 +148,7 @@ impl Default for Version {
 impl Register for Version {
     const NAME: &'static str = "ident.VERSION";
     const OFFSET: u32 = VERSION;
-    const RESET: u32 = 0x1_0000;
+    const RESET: u32 = 0x1_0001;
     const READABLE: u32 = 0xFFFF_FFFF;
     const WRITABLE: u32 = 0x0;
 
@@ -197,7 +202,7 @@ impl Capabilities {
     }
 
     /// Radiance estimation units, read-only. N_set, how many hit points are worked on in one cycle: 4, 8 or
-    /// 16 (PREE Table II). Set by the build.
+    /// 16 (PREE Table II); 0 without a PREE. Set by the build.
     pub const fn preus(self) -> u32 {
         Self::PREUS.get(self.0)
     }
@@ -224,7 +229,7 @@ impl Capabilities {
     }
 
     /// Entries of the photon buffer, read-only. Photons the update controller schedules at a time: 4, for any
-    /// number of units (PREE §IV.B).
+    /// number of units (PREE §IV.B); 0 without a PREE.
     pub const fn buffer_entries(self) -> u32 {
         Self::BUFFER_ENTRIES.get(self.0)
     }
@@ -236,7 +241,8 @@ impl Capabilities {
     }
 
     /// Units present, read-only. A bit for each fixed-function unit present: bit 0 of the field is the
-    /// progressive radiance estimation engine (PREE). Other bits are 0.
+    /// progressive radiance estimation engine (PREE), bit 1 the pyramidal displacement mapping unit. Other
+    /// bits are 0. The registers of a unit which is not present are unmapped.
     pub const fn units(self) -> u32 {
         Self::UNITS.get(self.0)
     }
@@ -281,8 +287,8 @@ impl core::fmt::Debug for Capabilities {
     }
 }
 
-/// Pipeline depths (PIPELINE). Latencies in cycles, so that a driver can bound its waits and a report can
-/// name fill and drain.
+/// Pipeline depths (PIPELINE). Latencies of the PREE in cycles, 0 without one, so that a driver can bound its
+/// waits and a report can name fill and drain.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(transparent)]

@@ -27,16 +27,25 @@ impl Status {
     /// Value after reset.
     pub const RESET: Self = Self(0x0);
     /// All fields, from the lowest bit up.
-    pub const FIELDS: &'static [Field] = &[Self::DONE, Self::ERROR, Self::RING_SPACE];
+    pub const FIELDS: &'static [Field] =
+        &[Self::DONE, Self::ERROR, Self::RING_SPACE, Self::DISPLACE_DONE, Self::DISPLACE_ERROR];
     /// Place of DONE.
     pub const DONE: Field = Field { name: "DONE", shift: 0, width: 1 };
     /// Place of ERROR.
     pub const ERROR: Field = Field { name: "ERROR", shift: 1, width: 1 };
     /// Place of RING_SPACE.
     pub const RING_SPACE: Field = Field { name: "RING_SPACE", shift: 2, width: 1 };
+    /// Place of DISPLACE_DONE.
+    pub const DISPLACE_DONE: Field = Field { name: "DISPLACE_DONE", shift: 3, width: 1 };
+    /// Place of DISPLACE_ERROR.
+    pub const DISPLACE_ERROR: Field = Field { name: "DISPLACE_ERROR", shift: 4, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
+    pub const MASK: u32 = Self::DONE.mask()
+        | Self::ERROR.mask()
+        | Self::RING_SPACE.mask()
+        | Self::DISPLACE_DONE.mask()
+        | Self::DISPLACE_ERROR.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -48,7 +57,7 @@ impl Status {
         self.0
     }
 
-    /// Done, write 1 to clear. The job is complete and all its results are in memory.
+    /// Done, write 1 to clear. The job of the PREE is complete and all its results are in memory.
     pub const fn done(self) -> bool {
         Self::DONE.get(self.0) != 0
     }
@@ -59,7 +68,8 @@ impl Status {
         Self(Self::DONE.put(self.0, value as u32))
     }
 
-    /// Error, write 1 to clear. An error was recorded: ERROR.CODE says which, FAULT_ADDRESS where.
+    /// Error, write 1 to clear. An error of the PREE was recorded: `pree.ERROR` says which, its FAULT_ADDRESS
+    /// where.
     pub const fn error(self) -> bool {
         Self::ERROR.get(self.0) != 0
     }
@@ -81,6 +91,30 @@ impl Status {
     pub const fn with_ring_space(self, value: bool) -> Self {
         Self(Self::RING_SPACE.put(self.0, value as u32))
     }
+
+    /// Displacement done, write 1 to clear. The job of the displacement unit is complete and all its results
+    /// are in memory.
+    pub const fn displace_done(self) -> bool {
+        Self::DISPLACE_DONE.get(self.0) != 0
+    }
+
+    /// The word with DISPLACE_DONE replaced.
+    #[must_use]
+    pub const fn with_displace_done(self, value: bool) -> Self {
+        Self(Self::DISPLACE_DONE.put(self.0, value as u32))
+    }
+
+    /// Displacement error, write 1 to clear. An error of the displacement unit was recorded: `displace.ERROR`
+    /// says which, its FAULT_ADDRESS where.
+    pub const fn displace_error(self) -> bool {
+        Self::DISPLACE_ERROR.get(self.0) != 0
+    }
+
+    /// The word with DISPLACE_ERROR replaced.
+    #[must_use]
+    pub const fn with_displace_error(self, value: bool) -> Self {
+        Self(Self::DISPLACE_ERROR.put(self.0, value as u32))
+    }
 }
 
 impl Default for Status {
@@ -93,8 +127,8 @@ impl Register for Status {
     const NAME: &'static str = "interrupts.STATUS";
     const OFFSET: u32 = STATUS;
     const RESET: u32 = 0x0;
-    const READABLE: u32 = 0x7;
-    const WRITABLE: u32 = 0x7;
+    const READABLE: u32 = 0x1F;
+    const WRITABLE: u32 = 0x1F;
 
     fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -111,6 +145,8 @@ impl core::fmt::Debug for Status {
             .field("done", &self.done())
             .field("error", &self.error())
             .field("ring_space", &self.ring_space())
+            .field("displace_done", &self.displace_done())
+            .field("displace_error", &self.displace_error())
             .finish()
     }
 }
@@ -125,16 +161,25 @@ impl Enable {
     /// Value after reset.
     pub const RESET: Self = Self(0x0);
     /// All fields, from the lowest bit up.
-    pub const FIELDS: &'static [Field] = &[Self::DONE, Self::ERROR, Self::RING_SPACE];
+    pub const FIELDS: &'static [Field] =
+        &[Self::DONE, Self::ERROR, Self::RING_SPACE, Self::DISPLACE_DONE, Self::DISPLACE_ERROR];
     /// Place of DONE.
     pub const DONE: Field = Field { name: "DONE", shift: 0, width: 1 };
     /// Place of ERROR.
     pub const ERROR: Field = Field { name: "ERROR", shift: 1, width: 1 };
     /// Place of RING_SPACE.
     pub const RING_SPACE: Field = Field { name: "RING_SPACE", shift: 2, width: 1 };
+    /// Place of DISPLACE_DONE.
+    pub const DISPLACE_DONE: Field = Field { name: "DISPLACE_DONE", shift: 3, width: 1 };
+    /// Place of DISPLACE_ERROR.
+    pub const DISPLACE_ERROR: Field = Field { name: "DISPLACE_ERROR", shift: 4, width: 1 };
 
     /// The bits that belong to a field: a write to the others is ignored.
-    pub const MASK: u32 = Self::DONE.mask() | Self::ERROR.mask() | Self::RING_SPACE.mask();
+    pub const MASK: u32 = Self::DONE.mask()
+        | Self::ERROR.mask()
+        | Self::RING_SPACE.mask()
+        | Self::DISPLACE_DONE.mask()
+        | Self::DISPLACE_ERROR.mask();
 
     /// Takes a word as it is.
     pub const fn from_bits(bits: u32) -> Self {
@@ -178,6 +223,28 @@ impl Enable {
     pub const fn with_ring_space(self, value: bool) -> Self {
         Self(Self::RING_SPACE.put(self.0, value as u32))
     }
+
+    /// Displacement done, read-write. Lets STATUS.DISPLACE_DONE raise the line.
+    pub const fn displace_done(self) -> bool {
+        Self::DISPLACE_DONE.get(self.0) != 0
+    }
+
+    /// The word with DISPLACE_DONE replaced.
+    #[must_use]
+    pub const fn with_displace_done(self, value: bool) -> Self {
+        Self(Self::DISPLACE_DONE.put(self.0, value as u32))
+    }
+
+    /// Displacement error, read-write. Lets STATUS.DISPLACE_ERROR raise the line.
+    pub const fn displace_error(self) -> bool {
+        Self::DISPLACE_ERROR.get(self.0) != 0
+    }
+
+    /// The word with DISPLACE_ERROR replaced.
+    #[must_use]
+    pub const fn with_displace_error(self, value: bool) -> Self {
+        Self(Self::DISPLACE_ERROR.put(self.0, value as u32))
+    }
 }
 
 impl Default for Enable {
@@ -190,8 +257,8 @@ impl Register for Enable {
     const NAME: &'static str = "interrupts.ENABLE";
     const OFFSET: u32 = ENABLE;
     const RESET: u32 = 0x0;
-    const READABLE: u32 = 0x7;
-    const WRITABLE: u32 = 0x7;
+    const READABLE: u32 = 0x1F;
+    const WRITABLE: u32 = 0x1F;
 
     fn from_bits(bits: u32) -> Self {
         Self(bits)
@@ -208,6 +275,8 @@ impl core::fmt::Debug for Enable {
             .field("done", &self.done())
             .field("error", &self.error())
             .field("ring_space", &self.ring_space())
+            .field("displace_done", &self.displace_done())
+            .field("displace_error", &self.displace_error())
             .finish()
     }
 }

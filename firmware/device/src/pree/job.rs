@@ -1,13 +1,15 @@
 //! From registers to a job; in: bits, out: what the engine can do, or the fault; cost: decoding at start.
 
+use lucerna_fabric::window::Windows;
 use lucerna_pree::allocation::Allocation;
 use lucerna_pree::hazard::Hazard;
 use lucerna_pree::job::{Busy, EvaluateJob, Fault, FaultCode, InputWidth, Rules, UpdateJob};
 use lucerna_pree::schedule::Scheduler;
 use lucerna_regs::pree::{self as regs, Config, Mode};
+use lucerna_regs::window;
 use lucerna_softfloat::Format;
 
-use crate::registers::Registers;
+use super::registers::Registers;
 
 /// A job of either mode.
 #[derive(Clone, Copy, Debug)]
@@ -22,13 +24,15 @@ pub enum Job<F> {
 ///
 /// # Errors
 /// A fault of the register's codes; nothing was touched.
-pub fn decode<F: Format>(registers: &Registers, memory_bytes: u32) -> Result<Job<F>, Fault> {
-    let windows = registers.windows(memory_bytes);
+pub fn decode<F: Format>(
+    registers: &Registers,
+    windows: &Windows<{ window::COUNT }>,
+) -> Result<Job<F>, Fault> {
     let hazard = hazard(registers.config)?;
     let rules = rules(registers.config, hazard)?;
     Ok(match registers.config.mode() {
         Mode::Update => Job::Update(UpdateJob::new(
-            &windows,
+            windows,
             registers.hits,
             registers.index,
             registers.ring,
@@ -36,7 +40,7 @@ pub fn decode<F: Format>(registers: &Registers, memory_bytes: u32) -> Result<Job
             rules,
         )?),
         Mode::Evaluate => Job::Evaluate(EvaluateJob::new(
-            &windows,
+            windows,
             registers.hits,
             registers.pixels,
             F::from_bits(registers.emitted),

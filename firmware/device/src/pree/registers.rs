@@ -1,21 +1,16 @@
-//! What software has written; in: words, out: the same words; cost: one flip-flop a bit. Bits only: meaning is in [`job`](crate::job).
+//! What software has written; in: words, out: the same words; cost: one flip-flop a bit. Bits only: meaning is in [`job`](super::job).
 
-use lucerna_fabric::window::{Window, Windows};
 use lucerna_pree::counters::Counters;
 use lucerna_pree::job::{Fault, FaultCode, Table};
 use lucerna_regs::counters::Counter;
 use lucerna_regs::pree::ErrorCode;
-use lucerna_regs::{interrupts, pree, window};
+use lucerna_regs::{interrupts, pree};
+
+use crate::first_error::FirstError;
 
 /// The register file.
 #[derive(Clone, Debug)]
 pub struct Registers {
-    /// Interrupts that happened.
-    pub status: interrupts::Status,
-    /// Interrupts that raise the line.
-    pub enable: interrupts::Enable,
-    /// Where the device may go.
-    pub windows: [Window; window::COUNT],
     /// Mode and policies.
     pub config: pree::Config,
     /// α, in the device's format.
@@ -34,10 +29,8 @@ pub struct Registers {
     pub tail: u32,
     /// The ring's low mark.
     pub low: u32,
-    /// The first error since the last start or abort.
-    pub error: ErrorCode,
-    /// Where it was.
-    pub fault_address: u32,
+    /// The first error since the last start or abort, and where it was.
+    pub error: FirstError<ErrorCode>,
     /// The counters at the last snapshot.
     pub snapshot: Counters,
 }
@@ -45,9 +38,6 @@ pub struct Registers {
 impl Default for Registers {
     fn default() -> Self {
         Self {
-            status: interrupts::Status::RESET,
-            enable: interrupts::Enable::RESET,
-            windows: Default::default(),
             config: pree::Config::RESET,
             alpha: 0,
             emitted: 0,
@@ -57,36 +47,44 @@ impl Default for Registers {
             ring: Table::default(),
             tail: 0,
             low: 0,
-            error: ErrorCode::None,
-            fault_address: 0,
+            error: FirstError::NONE,
             snapshot: Counters::ZERO,
         }
     }
 }
 
 impl Registers {
-    /// The windows as the fabric checks them.
-    pub fn windows(&self, memory_bytes: u32) -> Windows<{ window::COUNT }> {
-        Windows::new(self.windows, memory_bytes)
-    }
-
-    /// Keeps the first error, and raises the interrupt for every one. NOT_IDLE ends no job, so it does not hide what does.
-    pub fn record(&mut self, fault: Fault) {
-        self.status = self.status.with_error(true);
-        if matches!(self.error, ErrorCode::None | ErrorCode::NotIdle) {
-            self.error = code(fault.code);
-            self.fault_address = fault.address;
-        }
+    /// Keeps the first error, and raises the interrupt for every one.
+    pub fn record(&mut self, fault: Fault) -> interrupts::Status {
+        self.error.record(code(fault.code), fault.address);
+        interrupts::Status::RESET.with_error(true)
     }
 
     /// A new beginning.
     pub fn clear_error(&mut self) {
-        self.error = ErrorCode::None;
-        self.fault_address = 0;
+        self.error = FirstError::NONE;
     }
 
-    /// The field of the plain 32-bit registers at this offset: these read back what was written.
-    pub fn plain(&mut self, offset: u32) -> Option<&mut u32> {
+    /// The plain 32-bit register at this offset.
+    pub const fn plain(&self, offset: u32) -> Option<u32> {
+        Some(match offset {
+            pree::ALPHA => self.alpha,
+            pree::EMITTED => self.emitted,
+            pree::HIT_BASE => self.hits.base,
+            pree::HIT_COUNT => self.hits.count,
+            pree::INDEX_BASE => self.index.base,
+            pree::INDEX_COUNT => self.index.count,
+            pree::PIXEL_BASE => self.pixels.base,
+            pree::PIXEL_COUNT => self.pixels.count,
+            pree::RING_BASE => self.ring.base,
+            pree::RING_ENTRIES => self.ring.count,
+            pree::RING_LOW => self.low,
+            _ => return None,
+        })
+    }
+
+    /// The same, to be written: these read back what was written.
+    pub const fn plain_mut(&mut self, offset: u32) -> Option<&mut u32> {
         Some(match offset {
             pree::ALPHA => &mut self.alpha,
             pree::EMITTED => &mut self.emitted,
@@ -99,14 +97,7 @@ impl Registers {
             pree::RING_BASE => &mut self.ring.base,
             pree::RING_ENTRIES => &mut self.ring.count,
             pree::RING_LOW => &mut self.low,
-            _ => {
-                let (number, part) = window::at(offset)?;
-                let window = self.windows.get_mut(number)?;
-                match part {
-                    window::Part::Base => &mut window.base,
-                    window::Part::Limit => &mut window.limit,
-                }
-            }
+            _ => return None,
         })
     }
 
