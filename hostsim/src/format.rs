@@ -2,7 +2,8 @@
 //! host operation, and for F24 one rounding.
 //!
 //! [`HostF32`] is the host's own f32. [`HostF24`] computes in f64 and rounds once to 1-7-16, which is exact because
-//! 53 >= 2·17 + 2. Both are chosen for speed only, and tests hold them against the soft formats.
+//! 53 >= 2·17 + 2. Both are chosen for speed only, and tests hold them against the soft formats. [`HostF64`] is no device's:
+//! it tells what a job would come to if arithmetic did not matter.
 
 use lucerna_softfloat::{F24, F32, Format, FormatCode};
 
@@ -48,6 +49,34 @@ macro_rules! host_arithmetic {
     };
 }
 
+/// The limit of [`Format::floor_scaled`].
+const FLOOR_LIMIT: f64 = (1 << 24) as f64;
+/// Added to a small number, it leaves no room for a fraction, and the integer in the low bits.
+const ANCHOR: f64 = 1.5 * (1u64 << 52) as f64;
+
+/// 2^exponent, of exponents within ±31.
+#[inline(always)]
+const fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// The next integer at or below, clipped.
+#[inline(always)]
+fn floor(x: f64) -> i32 {
+    if x.abs() <= FLOOR_LIMIT {
+        let anchored = x + ANCHOR;
+        // The addition rounded to nearest.
+        return anchored.to_bits() as i32 - i32::from(anchored - ANCHOR > x);
+    }
+    floor_rare(x)
+}
+
+/// Beyond the limit, or not a number.
+#[cold]
+fn floor_rare(x: f64) -> i32 {
+    x.clamp(-FLOOR_LIMIT, FLOOR_LIMIT) as i32
+}
+
 /// The host's f32, its NaN made canonical where bits leave it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HostF32(f32);
@@ -73,6 +102,46 @@ impl Format for HostF32 {
     fn to_f32(self) -> f32 {
         self.0
     }
+    #[inline(always)]
+    fn floor_scaled(self, log2: u32) -> i32 {
+        floor(f64::from(self.0) * power_of_two(log2 as i32))
+    }
+    host_arithmetic!(Self);
+}
+
+/// The study format: words are f32, everything between them is f64.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HostF64(f64);
+
+impl Format for HostF64 {
+    const NAME: &'static str = "f64";
+    const CODE: FormatCode = FormatCode::F64;
+    const COSTLY: bool = false;
+    const ZERO: Self = Self(0.0);
+    const ONE: Self = Self(1.0);
+
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        Self(f32::from_bits(bits).into())
+    }
+    #[inline(always)]
+    fn to_bits(self) -> u32 {
+        HostF32(self.0 as f32).to_bits()
+    }
+    fn from_f32(x: f32) -> Self {
+        Self(x.into())
+    }
+    fn to_f32(self) -> f32 {
+        self.0 as f32
+    }
+    #[inline(always)]
+    fn floor_scaled(self, log2: u32) -> i32 {
+        floor(self.0 * power_of_two(log2 as i32))
+    }
+    #[inline(always)]
+    fn from_scaled(integer: i32, log2: u32) -> Self {
+        Self(f64::from(integer) * power_of_two(-(log2 as i32)))
+    }
     host_arithmetic!(Self);
 }
 
@@ -91,15 +160,22 @@ const OVERFLOW: f64 = f64::from_bits((1023 + 64) << 52);
 /// 2^-78, F24's least subnormal.
 const QUANTUM: f64 = f64::from_bits((1023 - 78) << 52);
 
+/// Twice the relative error of a rounding to 17 bits.
+const ROUNDING: f64 = 1.0 / (1 << 16) as f64;
+
 /// The nearest F24 value to an f64, ties to even.
+///
+/// The sum is right for what is a normal F24 number after rounding; below 2^-62 a result of 2^-62 is that of the coarser
+/// subnormal grid as well.
 #[inline(always)]
 fn rounded(x: f64) -> HostF24 {
-    let magnitude = x.abs();
-    if (LEAST_NORMAL..OVERFLOW).contains(&magnitude) {
-        let bits = x.to_bits();
-        let to_even = (1u64 << (SPARE - 1)) - 1 + (bits >> SPARE & 1);
-        let nearest = f64::from_bits((bits + to_even) >> SPARE << SPARE);
-        return HostF24(if nearest.abs() >= OVERFLOW { f64::INFINITY.copysign(x) } else { nearest });
+    let bits = x.to_bits();
+    let to_even = (1u64 << (SPARE - 1)) - 1 + (bits >> SPARE & 1);
+    let nearest = bits.wrapping_add(to_even) >> SPARE << SPARE;
+    // Exponents from that of the least normal number to below that of the overflow, whatever the sign.
+    let least = LEAST_NORMAL.to_bits() << 1;
+    if (nearest << 1).wrapping_sub(least) < (OVERFLOW.to_bits() << 1) - least {
+        return HostF24(f64::from_bits(nearest));
     }
     if x == 0.0 { HostF24(x) } else { rounded_rare(x) }
 }
@@ -109,7 +185,7 @@ fn rounded(x: f64) -> HostF24 {
 fn rounded_rare(x: f64) -> HostF24 {
     HostF24(if x.is_nan() {
         f64::NAN
-    } else if x.abs() >= OVERFLOW {
+    } else if x.abs() >= 1.0 {
         f64::INFINITY.copysign(x)
     } else {
         // At 1.5·2^52 quanta, an f64's last bit is one quantum: the addition rounds to a whole number of them.
@@ -153,49 +229,36 @@ impl Format for HostF24 {
     fn to_f32(self) -> f32 {
         self.0 as f32
     }
+    #[inline(always)]
+    fn floor_scaled(self, log2: u32) -> i32 {
+        floor(self.0 * power_of_two(log2 as i32))
+    }
+    #[inline(always)]
+    fn add_product_floor(self, factor: Self, other: Self, log2: u32) -> i32 {
+        let product = factor.0 * other.0;
+        let sum = self.0 + product;
+        let scale = power_of_two(log2 as i32);
+        let scaled = sum * scale;
+        // Twice what two roundings to 17 bits, or to subnormals, can be.
+        let doubt = ((product.abs() + sum.abs()) * ROUNDING + LEAST_NORMAL) * scale;
+        let anchored = scaled + ANCHOR;
+        let beyond = scaled - (anchored - ANCHOR);
+        // So far from an integer, and so small, no rounding changes the floor.
+        if scaled.abs() <= FLOOR_LIMIT && beyond.abs() > doubt && beyond.abs() + doubt < 0.5 {
+            return anchored.to_bits() as i32 - i32::from(beyond < 0.0);
+        }
+        self.add(factor.mul(other)).floor_scaled(log2)
+    }
+    #[inline(always)]
+    fn from_scaled(integer: i32, log2: u32) -> Self {
+        if integer.unsigned_abs() <= 1 << 17 {
+            return Self(f64::from(integer) * power_of_two(-(log2 as i32)));
+        }
+        // By way of f32, as the provided method rounds integers beyond 2^24.
+        rounded(f64::from(integer as f32) * power_of_two(-(log2 as i32)))
+    }
     host_arithmetic!(rounded);
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// Bits with all exponents, and the special values more often than chance has them.
-    fn bits(width: u32) -> impl Strategy<Value = u32> {
-        let special =
-            prop::sample::select(vec![0u32, 1, 2, 0x7f_ffff, 0x80_0000, 0x80_0001, 0x01_0000, 0x00_ffff]);
-        let top = if width == 24 { 0x7f_0000u32 } else { 0x7f80_0000 };
-        prop_oneof![6 => any::<u32>(), 1 => special, 1 => Just(top), 1 => Just(top | 0x4000), 1 => Just(top - 1)]
-            .prop_map(move |bits| if width == 24 { bits & 0xff_ffff } else { bits })
-    }
-
-    fn same<H: Format, S: Format>(a: u32, b: u32) -> Result<(), TestCaseError> {
-        let (ha, hb, sa, sb) = (H::from_bits(a), H::from_bits(b), S::from_bits(a), S::from_bits(b));
-        let host = [ha.add(hb), ha.sub(hb), ha.mul(hb), ha.div(hb), ha.square(), ha.sqrt()].map(H::to_bits);
-        let soft = [sa.add(sb), sa.sub(sb), sa.mul(sb), sa.div(sb), sa.square(), sa.sqrt()].map(S::to_bits);
-        prop_assert_eq!(host, soft, "{:08x} {:08x}", a, b);
-        prop_assert_eq!((ha.lt(hb), ha.le(hb), ha.eq(hb)), (sa.lt(sb), sa.le(sb), sa.eq(sb)));
-        let x = f32::from_bits(a);
-        prop_assert_eq!(H::from_f32(x).to_bits(), S::from_f32(x).to_bits());
-        Ok(())
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(200_000))]
-        #[test]
-        fn f32_is_the_soft_one((a, b) in (bits(32), bits(32))) {
-            same::<HostF32, F32>(a, b)?;
-        }
-        #[test]
-        fn f24_is_the_soft_one((a, b) in (bits(24), bits(24))) {
-            same::<HostF24, F24>(a, b)?;
-        }
-        /// Results near the least normal and near overflow.
-        #[test]
-        fn f24_at_its_edges((a, b) in (bits(24), prop::sample::select(vec![0x20_0000u32, 0x1f_ffff, 0x5f_0001, 0x3f_0000]))) {
-            same::<HostF24, F24>(a, b)?;
-            same::<HostF24, F24>(0x20_0000 | a & 0xffff, b)?;
-        }
-    }
-}
+mod tests;

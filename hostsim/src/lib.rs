@@ -3,7 +3,8 @@
 //! The data flow: [`scene`] reads a scene; [`trace`] follows eye rays to hit points and photons to surface hits, in f64;
 //! [`grid`] turns the hit points into the index table the engine walks; [`oracle`] computes the same radiance without
 //! the engine (an f64 estimator, and a scalar loop in the engine's own format for a comparison bit by bit);
-//! [`picture`] makes and compares pictures.
+//! [`picture`] makes and compares pictures. [`displace`] does the same for displaced surfaces: maps and views in, rays for the
+//! displacement unit out, an exact march to judge what it found.
 //!
 //! ```
 //! use hostsim::grid::HashGrid;
@@ -29,6 +30,7 @@
 
 pub mod accelerate;
 pub mod cli;
+pub mod displace;
 pub mod fixture;
 pub mod format;
 pub mod grid;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use hostsim::cli::{Cli, Command, Reproduce, progress};
-use hostsim::{fixture, render, replay, reproduce, size};
+use hostsim::{displace, fixture, render, replay, reproduce, size};
 
 type AnyError = Box<dyn std::error::Error>;
 
@@ -39,11 +39,29 @@ fn run(cli: Cli) -> Result<(), AnyError> {
                 ))?;
             }
         }
+        Command::Displace(args) => {
+            let options = args.options();
+            let bar = progress(0);
+            let report = displace::displace(&options, &bar)?;
+            bar.finish_and_clear();
+            say(format_args!(
+                "{report}\n\nwrote picture.png, steps.png (bright at {} steps), difference.png and report.json to {}",
+                displace::picture::HOTTEST,
+                std::path::absolute(&options.out)?.display()
+            ))?;
+        }
         Command::Reproduce(Reproduce::Pree { full, out }) => {
             let bar = progress(0);
             let figures = reproduce::pree::run(full, &out, &bar)?;
             bar.finish_and_clear();
             say(format_args!("{figures}\n\nwrote Fig. 4's pictures and pree.json to {}", out.display()))?;
+        }
+        Command::Reproduce(Reproduce::Displacement(args)) => {
+            let bar = progress(0);
+            let (size, setup) = ((args.size.width, args.size.height), args.device.setup());
+            let tables = reproduce::displacement::run(&args.maps, size, &setup, &args.out, &bar)?;
+            bar.finish_and_clear();
+            say(format_args!("{tables}\n\nwrote displacement.json to {}", args.out.display()))?;
         }
         Command::Replay(args) => say(replay::run(&args)?)?,
         Command::Size => {

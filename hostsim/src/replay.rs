@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lucerna_bus::{Model, ReplayError, TargetError, replay_timed};
-use lucerna_device::Device;
+use lucerna_device::PreeDevice;
 use lucerna_driver::NumberFormat;
 use lucerna_softfloat::Format;
 
@@ -109,7 +109,7 @@ impl OnDevice for Replay<'_> {
 
     fn on<F: Format, const N: usize>(self) -> Self::Output {
         let Self { args, words, text } = self;
-        let device: Device<F, N, _> = Device::new(HostMemory::new(words));
+        let device: PreeDevice<F, N, _> = PreeDevice::new(HostMemory::new(words));
         let model = Model::new(device).with_timing(args.timing.into());
         let replayed = replay_timed(text, &mut model.bus(), &mut model.delay())
             .map_err(|error| TraceError::Line { path: args.trace.clone(), error: Box::new(error) })?;

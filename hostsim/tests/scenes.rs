@@ -77,7 +77,8 @@ fn names_that_are_no_scene() {
         ("Cornell-Teapot", Some("cornell-teapot")),
         ("sibenic", Some("sibenik")),
         ("confer", Some("conference")),
-        ("kitchen", None),
+        ("kitchn", Some("kitchen")),
+        ("garden", None),
         ("", None),
     ] {
         let error = Scene::load(asked, &LoadOptions::default()).unwrap_err();

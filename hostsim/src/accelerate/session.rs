@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use lucerna_bus::{Bus, Model, TargetError};
-use lucerna_device::Device;
+use lucerna_device::PreeDevice;
 use lucerna_driver::records::HIT_POINT_WORDS;
 use lucerna_driver::{
     Buffer, Capabilities, Counters, Deadline, Error, EvaluateJob, HitPoint as HitRecord, JobError, Layout,
@@ -139,7 +139,7 @@ impl OnDevice for Session<'_> {
         };
         let bytes = sizes.bytes();
         let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
-        let device: Device<F, N, _> = Device::new(HostMemory::new(words));
+        let device: PreeDevice<F, N, _> = PreeDevice::new(HostMemory::new(words));
         let model = Model::new(device).with_timing(setup.timing);
         let header = header(setup, words);
         let path = setup.bus_trace.as_deref();

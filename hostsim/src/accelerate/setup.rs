@@ -6,7 +6,7 @@ use lucerna_bus::Timing;
 use lucerna_driver::{NumberFormat, Policies};
 use lucerna_softfloat::{F24, F32, Format};
 
-use crate::format::{HostF24, HostF32};
+use crate::format::{HostF24, HostF32, HostF64};
 
 /// How many PREUs the device has.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -113,6 +113,7 @@ pub fn on_device<T: OnDevice>(format: NumberFormat, arith: Arith, units: Units, 
         (NumberFormat::F32, Arith::Soft) => by_units::<F32, T>(units, task),
         (NumberFormat::F24, Arith::Fast) => by_units::<HostF24, T>(units, task),
         (NumberFormat::F24, Arith::Soft) => by_units::<F24, T>(units, task),
+        (NumberFormat::F64, _) => by_units::<HostF64, T>(units, task),
     }
 }
 

@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 use lucerna_bus::Timing;
+use lucerna_displace::engine::Geometry;
 use lucerna_driver::{Allocation, Busy, Hazard, InputWidth, NumberFormat, Scheduler};
 
 use crate::accelerate::{Arith, Units};
@@ -122,6 +123,8 @@ choice! {
     }
 }
 
+pub(crate) use choice;
+
 /// A picture's size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Size {
@@ -146,6 +149,35 @@ impl FromStr for Size {
     }
 }
 
+/// A cache as SIZE,WAYS,LINE.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct CacheSize(pub Geometry);
+
+impl FromStr for CacheSize {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form =
+            || "write SIZE,WAYS,LINE in bytes (K for 1024), powers of two, for example 16K,4,32".to_owned();
+        let mut parts = text.split(',').map(|part| {
+            let part = part.trim().to_ascii_uppercase();
+            let part = part.strip_suffix('B').unwrap_or(&part);
+            let (digits, unit) = part.strip_suffix('K').map_or((part, 1), |digits| (digits, 1024));
+            digits.parse::<u32>().ok().and_then(|number| number.checked_mul(unit))
+        });
+        let (Some(Some(bytes)), Some(Some(ways)), Some(Some(line_bytes)), None) =
+            (parts.next(), parts.next(), parts.next(), parts.next())
+        else {
+            return Err(form());
+        };
+        let geometry = Geometry { bytes, ways, line_bytes };
+        match geometry.lines() {
+            Ok(_) => Ok(Self(geometry)),
+            Err(error) => Err(format!("{error}: {}", form())),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,6 +189,19 @@ mod tests {
         }
         for bad in ["", "320", "0x3", "3x0", "axb", "9999x1", "1x1x1", "-1x2"] {
             assert!(bad.parse::<Size>().unwrap_err().contains("WIDTHxHEIGHT"), "{bad}");
+        }
+    }
+
+    #[test]
+    fn caches_are_read_or_explained() {
+        let geometry = Geometry { bytes: 16384, ways: 4, line_bytes: 32 };
+        for good in ["16K,4,32", "16384,4,32", "16kb, 4, 32b"] {
+            assert_eq!(good.parse(), Ok(CacheSize(geometry)), "{good}");
+        }
+        for bad in
+            ["", "16K", "16K,4", "16K,4,32,1", "16K,3,32", "16,4,32", "0,0,0", "99999999K,4,32", "x,4,32"]
+        {
+            assert!(bad.parse::<CacheSize>().unwrap_err().contains("SIZE,WAYS,LINE"), "{bad}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The command line; in: words, out: options that mean something, or one paragraph on what is wrong; cost: none.
 
 pub mod choices;
+pub mod displace;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -30,6 +31,8 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene through the photon-mapping engine; writes pictures and report.json.
     Render(RenderArgs),
+    /// Draw a displaced surface through the displacement unit; writes pictures and report.json.
+    Displace(displace::DisplaceArgs),
     /// Print published figures beside ours.
     #[command(subcommand)]
     Reproduce(Reproduce),
@@ -57,6 +60,8 @@ pub enum Reproduce {
         #[arg(long, default_value = "out/reproduce-pree")]
         out: PathBuf,
     },
+    /// The pyramidal displacement-mapping unit: Tables 1 to 4, 6 and 7, on the paper's height maps.
+    Displacement(displace::ReproduceDisplacementArgs),
 }
 
 /// A trace and the device it was taken from (its first line says the device, options here come first).

@@ -1,18 +1,28 @@
-//! In: hit points, photons and their lists. Out: radiance, computed without the engine. Cost: 10 to 60 ns an operation.
+//! In: what the units are given. Out: what they should make of it, computed without them. Cost: 10 to 60 ns an operation.
 //!
-//! [`Reference`] is the estimator in f64 with whole photon counts, as the published program has it; [`Scalar`] repeats the
-//! engine's arithmetic, operation by operation, in its number format, one photon after the other. Neither shares code with
-//! the units they judge: not the datapath, not the soft-float, not the record layout.
+//! Of photons: [`Reference`] is the estimator in f64 with whole photon counts, as the published program has it; [`Scalar`] repeats the
+//! engine's arithmetic, operation by operation, in its number format, one photon after the other.
+//!
+//! Of displaced surfaces: [`Tangent`] rounds a pixel's ray as the device does; [`Columns`] marches a ray through every column;
+//! [`Pyramid`] traverses in f64.
+//!
+//! None shares code with the units they judge: not the datapath, not the soft-float, not the record layout.
 
+mod march;
 mod number;
 mod order;
+mod pyramid;
 mod reference;
 mod scalar;
+mod tangent;
 
+pub use march::{Column, Columns};
 pub use number::{Bits24, Number};
 pub use order::{evaluation_order, leap};
+pub use pyramid::{LevelUp, Pyramid, Rules, Walk};
 pub use reference::Reference;
 pub use scalar::{Scalar, State};
+pub use tangent::{Pinhole, RoundedRay, Tangent};
 
 /// What an estimator has done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

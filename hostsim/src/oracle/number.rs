@@ -1,4 +1,4 @@
-//! The scalar loop's arithmetic: the host's own f32, and 1-7-16 as f64 rounded once. Cost: one to five ns an operation.
+//! The oracles' arithmetic: the host's own f32 and f64, and 1-7-16 as f64 rounded once. Cost: one to five ns an operation.
 
 /// Arithmetic rounded to nearest even after every operation.
 pub trait Number: Copy + PartialOrd {
@@ -49,6 +49,34 @@ impl Number for f32 {
         self * o
     }
     #[inline]
+    fn div(self, o: Self) -> Self {
+        self / o
+    }
+}
+
+impl Number for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    fn from_f32(x: f32) -> Self {
+        x.into()
+    }
+    fn to_f64(self) -> f64 {
+        self
+    }
+    /// Of the nearest f32: words are not wider.
+    fn to_bits(self) -> u32 {
+        Number::to_bits(self as f32)
+    }
+    fn add(self, o: Self) -> Self {
+        self + o
+    }
+    fn sub(self, o: Self) -> Self {
+        self - o
+    }
+    fn mul(self, o: Self) -> Self {
+        self * o
+    }
     fn div(self, o: Self) -> Self {
         self / o
     }

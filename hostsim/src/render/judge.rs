@@ -50,7 +50,10 @@ impl Judge {
         Self {
             reference: Reference::new(points, radius, true),
             scalar: match setup.format {
-                NumberFormat::F32 => InOrder::F32(Scalar::new(points, radius, alpha, setup.normal_test)),
+                // Words of the study format are f32; there is no loop that keeps more between two photons.
+                NumberFormat::F32 | NumberFormat::F64 => {
+                    InOrder::F32(Scalar::new(points, radius, alpha, setup.normal_test))
+                }
                 NumberFormat::F24 => InOrder::F24(Scalar::new(points, radius, alpha, setup.normal_test)),
             },
             one_photon_cycles: 0,

@@ -2,10 +2,16 @@
 //!
 //! [`photons`] traces a chunk at a time and shows it to the judges of [`judge`] before the device gets it; [`report`] sets what
 //! came out beside what the paper says.
+//!
+//! A scene with displaced surfaces has a displacement unit for each: [`relief`] loads their maps, [`units`] asks the devices, and
+//! [`displacement`] is their part of the report.
 
+pub mod displacement;
 pub mod judge;
 pub mod photons;
+pub mod relief;
 pub mod report;
+pub mod units;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -17,10 +23,12 @@ use crate::accelerate::{self, Outcome, RunError, Setup, Workload};
 use crate::grid::{GridError, HashGrid};
 use crate::picture::{self, Comparison, PictureError};
 use crate::scene::{LoadOptions, Scene, SceneError};
-use crate::trace::{HitPoint, eye_pass};
+use crate::trace::{HitPoint, eye_pass_through};
+use displacement::Displacement;
 use judge::Judge;
 use photons::TracedPhotons;
 use report::Report;
+use units::{DisplacedError, Units};
 
 /// What to render, on what, to where.
 #[derive(Clone, Debug)]
@@ -53,6 +61,9 @@ pub enum RenderError {
     /// The device.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A displaced surface.
+    #[error(transparent)]
+    Displaced(#[from] DisplacedError),
     /// A picture.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -91,11 +102,20 @@ impl Prepared {
     /// Loads a scene, traces the eye rays and builds the index table.
     ///
     /// # Errors
-    /// [`RenderError`] of scene or grid.
+    /// [`RenderError`] of scene, displaced surfaces or grid.
     pub fn new(scene: &str, mesh: Option<PathBuf>, width: u32, height: u32) -> Result<Self, RenderError> {
         let scene = Scene::load(scene, &LoadOptions { mesh })?;
+        let mut units = Units::new(&scene, &Setup::default())?;
+        Self::trace(scene, &mut units, width, height)
+    }
+
+    /// Traces the eye rays of a scene, with these units for its displaced surfaces, and builds the index table.
+    ///
+    /// # Errors
+    /// [`RenderError`] of displaced surfaces or grid.
+    pub fn trace(scene: Scene, units: &mut Units, width: u32, height: u32) -> Result<Self, RenderError> {
         let started = Instant::now();
-        let points = eye_pass(&scene, width, height);
+        let points = eye_pass_through(&scene, width, height, units)?;
         let grid = HashGrid::build(&points, width, height)?;
         Ok(Self { scene, points, grid, eye_time: started.elapsed() })
     }
@@ -113,19 +133,25 @@ impl Prepared {
 pub fn render(options: &Options, bar: &ProgressBar) -> Result<Report, RenderError> {
     std::fs::create_dir_all(&options.out).map_err(RenderError::write(&options.out))?;
     bar.set_message("eye rays");
-    let prepared = Prepared::new(&options.scene, options.mesh.clone(), options.width, options.height)?;
-    for note in prepared.scene.notes() {
+    let scene = Scene::load(&options.scene, &LoadOptions { mesh: options.mesh.clone() })?;
+    let mut units = Units::new(&scene, &options.setup)?;
+    for note in scene.notes().iter().chain(units.notes()) {
         bar.suspend(|| eprintln!("note: {note}"));
     }
+    let prepared = Prepared::trace(scene, &mut units, options.width, options.height)?;
+    let after_eye_rays = units.counters()?;
     let workload = prepared.workload(options.width * options.height, options.photons);
     let mut judge = Judge::new(&prepared, &options.setup);
-    let mut source = TracedPhotons::new(&prepared, options.photons, &mut judge, bar);
-    let outcome = accelerate::run(&options.setup, &workload, &mut source)?;
-    let trace_time = source.trace_time() + prepared.eye_time;
+    let mut source = TracedPhotons::new(&prepared, &mut units, options.photons, &mut judge, bar);
+    let outcome = accelerate::run(&options.setup, &workload, &mut source);
+    let trace_time = source.finish()? + prepared.eye_time;
+    let outcome = outcome?;
+    let displacement =
+        Displacement::new(&after_eye_rays, &units.counters()?, units.host_time().as_secs_f64());
     bar.set_message("pictures");
     let verdict = judge.finish(&outcome, &workload, &options.setup);
     let comparison = write_pictures(options, &outcome, &verdict.reference)?;
-    let report = Report::new(options, &prepared, &outcome, &verdict, &comparison, trace_time);
+    let report = Report::new(options, &prepared, &outcome, &verdict, &comparison, trace_time, displacement);
     let path = options.out.join("report.json");
     std::fs::write(&path, report.to_json()).map_err(RenderError::write(&path))?;
     Ok(report)

@@ -6,6 +6,7 @@ use std::time::Duration;
 use comfy_table::{ContentArrangement, Table, presets};
 use serde::Serialize;
 
+use super::displacement::Displacement;
 use super::judge::Verdict;
 use super::{Options, Prepared};
 use crate::accelerate::Outcome;
@@ -79,6 +80,9 @@ pub struct Report {
     pub host_operations_per_second: f64,
     /// The device's operations a second ÷ the f64 reference loop's, in this run.
     pub host_speed_over_reference: f64,
+    /// Only of scenes with displaced surfaces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<Displacement>,
 }
 
 impl Report {
@@ -90,6 +94,7 @@ impl Report {
         verdict: &Verdict,
         comparison: &Comparison,
         trace: Duration,
+        displacement: Option<Displacement>,
     ) -> Self {
         let setup = &options.setup;
         let units = outcome.capabilities.preus;
@@ -142,6 +147,7 @@ impl Report {
             host_operations_per_second: ratio(operations, host_seconds.device),
             host_speed_over_reference: ratio(host_seconds.reference, host_seconds.device),
             host_seconds,
+            displacement,
         }
     }
 
@@ -205,7 +211,7 @@ impl Report {
     }
 }
 
-fn ratio(numerator: f64, denominator: f64) -> f64 {
+pub(super) fn ratio(numerator: f64, denominator: f64) -> f64 {
     if denominator > 0.0 { numerator / denominator } else { 0.0 }
 }
 
@@ -257,6 +263,17 @@ impl fmt::Display for Report {
                 self.host_speed_over_reference
             ),
         );
+        if let Some(d) = &self.displacement {
+            for (name, part) in [("displaced: eye rays", &d.eye_rays), ("displaced: photons", &d.photons)] {
+                row(
+                    name,
+                    format!(
+                        "{}, {:.1} steps and {:.1} cycles each",
+                        part.rays, part.steps_per_ray, part.cycles_per_ray
+                    ),
+                );
+            }
+        }
         write!(f, "{}", table.trim_fmt())?;
         match self.paper_table() {
             Some(paper) => write!(f, "\n\n{paper}"),

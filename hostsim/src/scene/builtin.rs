@@ -1,13 +1,15 @@
 //! The scenes that come with the project, from `fixtures/scenes`.
 
-const SCENES: [(&str, &str); 4] = [
+const SCENES: [(&str, &str); 6] = [
     ("cornell-balls", include_str!("../../../fixtures/scenes/cornell-balls.toml")),
     ("cornell-teapot", include_str!("../../../fixtures/scenes/cornell-teapot.toml")),
+    ("relief-room", include_str!("../../../fixtures/scenes/relief-room.toml")),
     ("sibenik", include_str!("../../../fixtures/scenes/sibenik.toml")),
     ("conference", include_str!("../../../fixtures/scenes/conference.toml")),
+    ("kitchen", include_str!("../../../fixtures/scenes/kitchen.toml")),
 ];
 
-/// The names [`super::Scene::load`] knows. The last two need a mesh that does not come with the project.
+/// The names [`super::Scene::load`] knows. The last three need a mesh that does not come with the project.
 pub fn builtin_names() -> [&'static str; SCENES.len()] {
     SCENES.map(|(name, _)| name)
 }
@@ -18,7 +20,7 @@ pub(super) fn text(name: &str) -> Option<&'static str> {
 
 /// Whether the scene is a camera and a light for a mesh of the user's.
 pub(super) fn takes_mesh(name: &str) -> bool {
-    matches!(name, "sibenik" | "conference")
+    matches!(name, "sibenik" | "conference" | "kitchen")
 }
 
 /// The built-in name a misspelt one probably means: its beginning, or at most a third of the letters away.

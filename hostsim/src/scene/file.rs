@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::bvh::{Triangle, TriangleSet};
+use super::check::Check;
+use super::displaced::DisplacedEntry;
 use super::shapes::{Placement, unit_box};
-use super::{Camera, Light, LoadOptions, Material, Scene, SceneError, Sphere, Vec3, mesh, teapot};
+use super::{Camera, Light, LoadOptions, Material, Scene, SceneError, Sphere, mesh, teapot};
 
 /// A scene file as written.
 #[derive(Debug, Deserialize)]
@@ -26,6 +28,8 @@ pub(super) struct SceneFile {
     spheres: Vec<SphereEntry>,
     #[serde(default)]
     objects: Vec<ObjectEntry>,
+    #[serde(default)]
+    displaced: Vec<DisplacedEntry>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -182,13 +186,25 @@ impl SceneFile {
             triangles.extend(entry.triangles(&check, &place, palette.len() as u32)?);
             palette.push(material);
         }
-        if spheres.is_empty() && triangles.is_empty() {
-            return check
-                .value("the file", "it holds nothing: add [[spheres]], [[objects]] or a `mesh`".to_owned());
+        let displaced = self.displaced.iter().enumerate();
+        let displaced: Vec<_> =
+            displaced.map(|(i, entry)| entry.build(&check, i, folder)).collect::<Result<_, _>>()?;
+        if spheres.is_empty() && triangles.is_empty() && displaced.is_empty() {
+            let why = "it holds nothing: add [[spheres]], [[objects]], [[displaced]] or a `mesh`";
+            return check.value("the file", why.to_owned());
         }
 
         let triangles = (!triangles.is_empty()).then(|| TriangleSet::new(&triangles, palette));
-        Ok(Scene { name: scene.to_owned(), notes, spheres, triangles, camera, light, least_weight })
+        Ok(Scene {
+            name: scene.to_owned(),
+            notes,
+            spheres,
+            triangles,
+            displaced,
+            camera,
+            light,
+            least_weight,
+        })
     }
 }
 
@@ -267,31 +283,5 @@ impl ObjectEntry {
         let placed =
             shape.into_iter().map(|corners| Triangle { corners: placement.apply(corners), material });
         Ok(placed.filter(|t| !t.is_degenerate()).collect())
-    }
-}
-
-/// Makes errors that name the scene.
-struct Check<'a> {
-    scene: &'a str,
-}
-
-impl Check<'_> {
-    fn value<T>(&self, place: &str, why: String) -> Result<T, SceneError> {
-        Err(SceneError::Value { scene: self.scene.to_owned(), place: place.to_owned(), why })
-    }
-
-    fn finite(&self, place: &str, field: &str, v: [f64; 3]) -> Result<Vec3, SceneError> {
-        if v.iter().any(|x| !x.is_finite()) {
-            return self.value(place, format!("{field} must be three finite numbers, not {v:?}"));
-        }
-        Ok(v.into())
-    }
-
-    fn colour(&self, place: &str, field: &str, v: [f64; 3], most: f64) -> Result<Vec3, SceneError> {
-        if v.iter().any(|x| !(0.0..=most).contains(x)) {
-            let range = if most == 1.0 { "from 0 to 1" } else { "finite and not negative" };
-            return self.value(place, format!("each number of {field} must be {range}, not {v:?}"));
-        }
-        Ok(v.into())
     }
 }

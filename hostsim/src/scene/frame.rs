@@ -46,6 +46,7 @@ pub(super) fn from_obj(path: &Path, name: &str) -> Result<Scene, SceneError> {
         notes,
         spheres: Vec::new(),
         triangles,
+        displaced: Vec::new(),
         camera,
         light,
         least_weight: LEAST_WEIGHT,

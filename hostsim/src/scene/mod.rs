@@ -4,6 +4,8 @@
 mod builtin;
 mod bvh;
 mod camera;
+mod check;
+mod displaced;
 mod error;
 mod file;
 mod frame;
@@ -17,6 +19,7 @@ use std::path::{Path, PathBuf};
 
 pub use builtin::builtin_names;
 pub use camera::Camera;
+pub use displaced::{Displaced, MapName, Texture, Wall};
 pub use error::SceneError;
 pub use mesh::MAX_TRIANGLES;
 pub use vec3::Vec3;
@@ -55,6 +58,11 @@ pub enum Material {
         colour: Vec3,
         /// Refractive index.
         index: f64,
+    },
+    /// A displaced surface from in front: only the displacement unit knows what is hit.
+    Displaced {
+        /// Its number in [`Scene::displaced`].
+        surface: usize,
     },
 }
 
@@ -105,6 +113,7 @@ pub struct Scene {
     notes: Vec<String>,
     spheres: Vec<Sphere>,
     triangles: Option<TriangleSet>,
+    displaced: Vec<Displaced>,
     camera: Camera,
     light: Light,
     least_weight: f64,
@@ -178,6 +187,7 @@ impl Scene {
             notes: Vec::new(),
             spheres,
             triangles: None,
+            displaced: Vec::new(),
             camera,
             light,
             least_weight: 0.0,
@@ -204,6 +214,11 @@ impl Scene {
         self.triangles.as_ref().map_or(0, TriangleSet::len)
     }
 
+    /// The displaced surfaces, in the order they are tried.
+    pub fn displaced(&self) -> &[Displaced] {
+        &self.displaced
+    }
+
     /// The camera.
     pub fn camera(&self) -> &Camera {
         &self.camera
@@ -219,7 +234,8 @@ impl Scene {
         self.least_weight
     }
 
-    /// The first surface a ray hits: spheres in order, strictly nearer wins; then triangles.
+    /// The first surface a ray hits: spheres in order, then displaced surfaces, strictly nearer wins; then triangles. Of a
+    /// displaced surface this is the lid.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         let mut distance = FAR;
         let mut sphere = None;
@@ -230,11 +246,21 @@ impl Scene {
                 sphere = Some(s);
             }
         }
-        if let Some(hit) = self.triangles.as_ref().and_then(|t| t.nearest(ray, distance)) {
+        let (mut limit, mut lid) = (distance, None);
+        for (number, surface) in self.displaced.iter().enumerate() {
+            if let Some(d) = surface.distance(ray, distance) {
+                (distance, limit, lid) = (d, d - surface.near(), Some((number, surface)));
+            }
+        }
+        if let Some(hit) = self.triangles.as_ref().and_then(|t| t.nearest(ray, limit)) {
             return Some(hit);
         }
-        let s = sphere?;
         let position = ray.origin + ray.direction * distance;
+        if let Some((number, surface)) = lid {
+            let material = surface.material(number, ray.direction);
+            return Some(Hit { position, normal: surface.normal(), two_sided: true, material });
+        }
+        let s = sphere?;
         let normal = (position - s.centre).normalised();
         Some(Hit { position, normal, two_sided: false, material: s.material })
     }

@@ -37,7 +37,7 @@ pub fn demangle(symbol: &str) -> String {
 /// The crate of a demangled path.
 pub fn crate_of(path: &str) -> &str {
     let known = || BY_PREFIX.iter().find(|(prefix, _)| path.starts_with(prefix)).map(|(_, krate)| *krate);
-    if path == "lucerna_app::board::model::JOB" {
+    if path == "lucerna_app::board::pree::JOB" {
         return JOB;
     }
     root(path).or_else(known).unwrap_or(OTHER)
@@ -106,7 +106,7 @@ mod tests {
             ("lucerna_pree::fast::<impl lucerna_pree::update::UpdatePass<F,_>>::sweep", "lucerna_pree"),
             ("<lucerna_bus::model::ModelBus<T> as lucerna_bus::bus::Bus>::write", "lucerna_bus"),
             (
-                "<lucerna_device::device::Device<F,_,M> as lucerna_bus::target::Target>::read",
+                "<lucerna_device::device::Device<M,P,D> as lucerna_bus::target::Target>::read",
                 "lucerna_device",
             ),
             ("<core::fmt::Formatter>::pad", "core"),
@@ -124,7 +124,7 @@ mod tests {
             (".Lanon.0b99.4", CONSTANTS),
             ("Reset", "cortex_m_rt"),
             ("__rustc::rust_begin_unwind", OTHER),
-            ("lucerna_app::board::model::JOB", JOB),
+            ("lucerna_app::board::pree::JOB", JOB),
             ("main", OTHER),
         ] {
             assert_eq!(crate_of(path), expected, "{path}");

@@ -15,7 +15,7 @@ use build::BuildError;
 use image::{Image, ImageError, Share};
 
 /// The programs of the table.
-pub const IMAGES: [&str; 3] = ["driver_only", "pree_f32", "pree_f24"];
+pub const IMAGES: [&str; 5] = ["driver_only", "pree_f32", "pree_f24", "displace_f32", "displace_f24"];
 
 /// Where things are.
 #[derive(Clone, Debug)]

@@ -1,0 +1,74 @@
+//! Are the host's numbers the soft ones, to the bit?
+
+use super::*;
+use proptest::prelude::*;
+
+/// Bits with all exponents, and the special values more often than chance has them.
+fn bits(width: u32) -> impl Strategy<Value = u32> {
+    let special =
+        prop::sample::select(vec![0u32, 1, 2, 0x7f_ffff, 0x80_0000, 0x80_0001, 0x01_0000, 0x00_ffff]);
+    let top = if width == 24 { 0x7f_0000u32 } else { 0x7f80_0000 };
+    prop_oneof![6 => any::<u32>(), 1 => special, 1 => Just(top), 1 => Just(top | 0x4000), 1 => Just(top - 1)]
+        .prop_map(move |bits| if width == 24 { bits & 0xff_ffff } else { bits })
+}
+
+fn same<H: Format, S: Format>(a: u32, b: u32) -> Result<(), TestCaseError> {
+    let (ha, hb, sa, sb) = (H::from_bits(a), H::from_bits(b), S::from_bits(a), S::from_bits(b));
+    let host = [ha.add(hb), ha.sub(hb), ha.mul(hb), ha.div(hb), ha.square(), ha.sqrt()].map(H::to_bits);
+    let soft = [sa.add(sb), sa.sub(sb), sa.mul(sb), sa.div(sb), sa.square(), sa.sqrt()].map(S::to_bits);
+    prop_assert_eq!(host, soft, "{:08x} {:08x}", a, b);
+    prop_assert_eq!((ha.lt(hb), ha.le(hb), ha.eq(hb)), (sa.lt(sb), sa.le(sb), sa.eq(sb)));
+    let x = f32::from_bits(a);
+    prop_assert_eq!(H::from_f32(x).to_bits(), S::from_f32(x).to_bits());
+    for log2 in [0, 1, b % 14, 31] {
+        prop_assert_eq!(ha.floor_scaled(log2), sa.floor_scaled(log2), "{:08x} {}", a, log2);
+        let (host, soft) = (ha.add_product_floor(hb, ha, log2), sa.add_product_floor(sb, sa, log2));
+        prop_assert_eq!(host, soft, "{:08x} {:08x} {}", a, b, log2);
+        for integer in [b as i32, b as i32 >> 8, (b & 0x3fff) as i32 - 0x2000] {
+            let (host, soft) = (H::from_scaled(integer, log2), S::from_scaled(integer, log2));
+            prop_assert_eq!(host.to_bits(), soft.to_bits(), "{} {}", integer, log2);
+        }
+    }
+    Ok(())
+}
+
+/// Every F24 number there is.
+#[test]
+fn every_floor_is_the_soft_one() {
+    for bits in 0..1 << 24 {
+        let (host, soft) = (HostF24::from_bits(bits), F24::from_bits(bits));
+        assert_eq!(host.floor_scaled(8), soft.floor_scaled(8), "{bits:06x}");
+    }
+}
+
+#[test]
+fn floors_go_down_and_are_clipped() {
+    let floor = |x: f64| HostF64(x).floor_scaled(2);
+    for (x, below) in [(0.9, 3), (-0.1, -1), (-0.25, -1), (-0.26, -2), (0.0, 0), (-0.0, 0), (1e-300, 0)] {
+        assert_eq!(floor(x), below, "{x}");
+    }
+    assert_eq!([f64::NAN, 1e30, f64::NEG_INFINITY, -5e6].map(floor), [0, 1 << 24, -(1 << 24), -(1 << 24)]);
+    assert_eq!(HostF64::from_scaled(-3, 2), HostF64(-0.75));
+    let third = HostF64::ONE.div(HostF64::from_f32(3.0));
+    assert_eq!(HostF64(1.0 / 3.0), third, "53 bits inside");
+    assert_eq!(HostF64::from_bits(third.to_bits()).to_f32(), 1.0 / 3.0, "24 outside");
+    assert_eq!(HostF64(f64::NAN).to_bits(), 0x7fc0_0000);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200_000))]
+    #[test]
+    fn f32_is_the_soft_one((a, b) in (bits(32), bits(32))) {
+        same::<HostF32, F32>(a, b)?;
+    }
+    #[test]
+    fn f24_is_the_soft_one((a, b) in (bits(24), bits(24))) {
+        same::<HostF24, F24>(a, b)?;
+    }
+    /// Results near the least normal and near overflow.
+    #[test]
+    fn f24_at_its_edges((a, b) in (bits(24), prop::sample::select(vec![0x20_0000u32, 0x1f_ffff, 0x5f_0001, 0x3f_0000]))) {
+        same::<HostF24, F24>(a, b)?;
+        same::<HostF24, F24>(0x20_0000 | a & 0xffff, b)?;
+    }
+}
