@@ -8,7 +8,7 @@ use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 
 use lucerna_bus::Model;
-use lucerna_device::Device;
+use lucerna_device::PreeDevice;
 use lucerna_driver::{Deadline, EvaluateJob, HitPoint, Layout, Lucerna, Photon, Policies, Sizes, UpdateJob};
 use lucerna_softfloat::F32;
 
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // The device: its format, number of units and memory. The model is named, as bus, delay and pin borrow it.
     let sizes = Sizes { hit_points: 4, index_entries: 6, pixels: 4, ring_entries: 16, normal_test: false };
-    let device = Device::<F32, 4, _>::new(vec![0u32; sizes.bytes() as usize / 4]);
+    let device = PreeDevice::<F32, 4, _>::new(vec![0u32; sizes.bytes() as usize / 4]);
     let model = Model::new(device);
     let mut lucerna = Lucerna::probe(model.bus(), model.delay())?;
     let layout = Layout::packed(lucerna.capabilities(), sizes)?;

@@ -1,8 +1,9 @@
 //! Any device of the family behind one type; in: units, format, arithmetic, memory, out: a target; cost: one virtual call an access.
 
-use hostsim::format::{HostF24, HostF32};
+use hostsim::format::{HostF24, HostF32, HostF64};
 use lucerna_bus::{Target, TargetError};
-use lucerna_device::Device;
+use lucerna_device::{FullDevice, PreeDevice};
+use lucerna_displace::engine::Sizes;
 use lucerna_driver::NumberFormat;
 use lucerna_softfloat::{F24, F32, Format};
 
@@ -38,15 +39,33 @@ impl Kind {
             (NumberFormat::F32, true) => build::<F32>(self.preus, memory),
             (NumberFormat::F24, false) => build::<HostF24>(self.preus, memory),
             (NumberFormat::F24, true) => build::<F24>(self.preus, memory),
+            (NumberFormat::F64, _) => panic!("the study format has no bits to compare"),
         }
+    }
+}
+
+/// A device with four PREUs and a displacement unit of some sizes.
+///
+/// # Panics
+/// When there is no such unit, or no device of the format.
+pub fn full(format: NumberFormat, soft: bool, sizes: Sizes, memory: Vec<u32>) -> Any {
+    fn build<F: Format>(sizes: Sizes, memory: Vec<u32>) -> Any {
+        Any(Box::new(FullDevice::<F, 4, 4, 512, _>::new(sizes, memory).expect("sizes of a unit")))
+    }
+    match (format, soft) {
+        (NumberFormat::F32, false) => build::<HostF32>(sizes, memory),
+        (NumberFormat::F32, true) => build::<F32>(sizes, memory),
+        (NumberFormat::F24, false) => build::<HostF24>(sizes, memory),
+        (NumberFormat::F24, true) => build::<F24>(sizes, memory),
+        (NumberFormat::F64, _) => build::<HostF64>(sizes, memory),
     }
 }
 
 fn build<F: Format>(preus: u32, memory: Vec<u32>) -> Any {
     Any(match preus {
-        4 => Box::new(Device::<F, 4, _>::new(memory)),
-        8 => Box::new(Device::<F, 8, _>::new(memory)),
-        16 => Box::new(Device::<F, 16, _>::new(memory)),
+        4 => Box::new(PreeDevice::<F, 4, _>::new(memory)),
+        8 => Box::new(PreeDevice::<F, 8, _>::new(memory)),
+        16 => Box::new(PreeDevice::<F, 16, _>::new(memory)),
         other => panic!("no device has {other} PREUs"),
     })
 }

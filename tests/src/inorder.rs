@@ -76,6 +76,7 @@ impl Job {
         match self.kind.format {
             NumberFormat::F32 => operation::<f32>(hit, photon, self.alpha, normal_test),
             NumberFormat::F24 => operation::<Bits24>(hit, photon, self.alpha, normal_test),
+            NumberFormat::F64 => panic!("the study format has no bits to compare"),
         }
     }
 
@@ -83,6 +84,7 @@ impl Job {
         match self.kind.format {
             NumberFormat::F32 => radiance::<f32>(pixel, hit, self.emitted),
             NumberFormat::F24 => radiance::<Bits24>(pixel, hit, self.emitted),
+            NumberFormat::F64 => panic!("the study format has no bits to compare"),
         }
     }
 

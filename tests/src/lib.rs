@@ -10,9 +10,12 @@
 //! assert_eq!(aftso(&[1; 8], 4, 1, Busy::Registered, |_, _, _| {}).cycles, 10);
 //! ```
 
+pub mod descriptor;
 pub mod devices;
+pub mod displaced;
 pub mod inorder;
 pub mod job;
 pub mod random;
+pub mod relief;
 pub mod schedule;
 pub mod workload;

@@ -1,5 +1,6 @@
 //! Random jobs; in: a shape and a seed, out: the job; cost: small. The shape shrinks, the seed does not.
 
+use lucerna_displace::engine::{Geometry, PortSizes, Sizes};
 use lucerna_driver::records::encode;
 use lucerna_driver::{Allocation, Busy, Hazard, InputWidth, NumberFormat, Scheduler};
 use lucerna_regs::pree::Config;
@@ -186,7 +187,7 @@ impl Shape {
 fn oddity(rng: &mut Rng, format: NumberFormat) -> u32 {
     let fraction = if format == NumberFormat::F32 { 23 } else { 16 };
     let top = match format {
-        NumberFormat::F32 => 0xff << 23,
+        NumberFormat::F32 | NumberFormat::F64 => 0xff << 23,
         NumberFormat::F24 => 0x7f << 16,
     };
     let sign = (rng.word() & 1) << if format == NumberFormat::F32 { 31 } else { 23 };
@@ -199,5 +200,22 @@ fn oddity(rng: &mut Rng, format: NumberFormat) -> u32 {
         5 => sign,
         6 => sign | (top - 1),
         _ => rng.word(),
+    }
+}
+
+/// Any displacement unit.
+pub fn sizes(rng: &mut Rng) -> Sizes {
+    let mut geometry = || {
+        let (sets, ways, line) = (rng.below(4), rng.below(3), 2 + rng.below(5));
+        Geometry { bytes: 1 << (sets + ways + line), ways: 1 << ways, line_bytes: 1 << line }
+    };
+    let (height_cache, texture_cache) = (geometry(), geometry());
+    Sizes {
+        units: 1 + rng.below(4),
+        height_cache,
+        texture_cache,
+        fifo0: 1 + rng.below(18),
+        fifo1: 1 + rng.below(18),
+        port: PortSizes { latency: 1 + rng.below(60), bytes_per_cycle: 1 + rng.below(16) },
     }
 }

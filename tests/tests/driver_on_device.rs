@@ -253,7 +253,7 @@ fn another_device_is_told_from_this_one() {
     let version = ident::Version::RESET.with_major(2);
     assert_eq!(
         probe(ident::VERSION, version.bits()).expect_err("another map").cause,
-        Cause::WrongVersion { major: 2, minor: 0 }
+        Cause::WrongVersion { major: 2, minor: 1 }
     );
     let bits = ident::Capabilities::RESET.with_preus(4).bits() | 7 << ident::Capabilities::FORMAT.shift;
     let error = probe(ident::CAPABILITIES, bits).expect_err("no such format");

@@ -52,9 +52,17 @@ fn crates_know_what_the_plan_lets_them() {
         ("lucerna-bus", &[]),
         ("lucerna-fabric", &["lucerna-softfloat"]),
         ("lucerna-pree", &["lucerna-softfloat", "lucerna-fabric"]),
+        ("lucerna-displace", &["lucerna-softfloat", "lucerna-fabric"]),
         (
             "lucerna-device",
-            &["lucerna-regs", "lucerna-bus", "lucerna-fabric", "lucerna-pree", "lucerna-softfloat"],
+            &[
+                "lucerna-regs",
+                "lucerna-bus",
+                "lucerna-fabric",
+                "lucerna-pree",
+                "lucerna-displace",
+                "lucerna-softfloat",
+            ],
         ),
         ("lucerna-driver", &["lucerna-bus", "lucerna-regs", "lucerna-softfloat"]),
     ];
@@ -69,7 +77,9 @@ fn crates_know_what_the_plan_lets_them() {
 fn driver_and_device_never_meet() {
     let dependencies = dependencies();
     assert!(!reach("lucerna-driver", &dependencies).contains("lucerna-device"));
-    assert!(!reach("lucerna-driver", &dependencies).contains("lucerna-pree"));
+    for unit in ["lucerna-pree", "lucerna-displace", "lucerna-fabric"] {
+        assert!(!reach("lucerna-driver", &dependencies).contains(unit), "the driver knows {unit}");
+    }
     assert!(!reach("lucerna-device", &dependencies).contains("lucerna-driver"));
     let shared: Vec<_> = reach("lucerna-driver", &dependencies)
         .intersection(&reach("lucerna-device", &dependencies))
@@ -126,7 +136,7 @@ fn unsafe_is_where_pointers_are() {
 /// The unit's own front page and the bus's register access must not be the only ones who say so.
 #[test]
 fn firmware_libraries_are_no_std() {
-    for name in ["softfloat", "fabric", "regs", "bus", "pree", "device", "driver"] {
+    for name in ["softfloat", "fabric", "regs", "bus", "pree", "displace", "device", "driver"] {
         let folder = root().join("firmware").join(name).join("src");
         let text = fs::read_to_string(folder.join("lib.rs")).unwrap();
         assert!(text.contains("no_std"), "{name} is not `no_std`");
@@ -141,11 +151,12 @@ fn firmware_libraries_are_no_std() {
 fn oracles_share_nothing_with_what_they_judge() {
     let folder = root().join("hostsim/src/oracle");
     let files = sources(&folder);
-    assert!(files.len() >= 4);
+    assert!(files.len() >= 8);
     for path in files {
         let words = words(&path);
         for theirs in [
             "lucerna_pree",
+            "lucerna_displace",
             "lucerna_softfloat",
             "lucerna_fabric",
             "lucerna_device",
@@ -154,7 +165,9 @@ fn oracles_share_nothing_with_what_they_judge() {
             "lucerna_bus",
             "HostF32",
             "HostF24",
+            "HostF64",
             "accelerate",
+            "displace",
             "format",
         ] {
             let own_text =
@@ -163,11 +176,17 @@ fn oracles_share_nothing_with_what_they_judge() {
         }
     }
     // Nor do this crate's own.
-    for file in ["inorder.rs", "schedule.rs"] {
+    for file in ["inorder.rs", "schedule.rs", "descriptor.rs"] {
         let words = words(&root().join("tests/src").join(file));
-        for theirs in
-            ["lucerna_pree", "lucerna_softfloat", "lucerna_fabric", "lucerna_device", "HostF32", "HostF24"]
-        {
+        for theirs in [
+            "lucerna_pree",
+            "lucerna_displace",
+            "lucerna_softfloat",
+            "lucerna_fabric",
+            "lucerna_device",
+            "HostF32",
+            "HostF24",
+        ] {
             assert!(!words.contains(theirs), "{file} uses {theirs}");
         }
     }

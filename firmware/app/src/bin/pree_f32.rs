@@ -5,7 +5,7 @@
 #[cfg(target_os = "none")]
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    lucerna_app::board::model::main::<lucerna_softfloat::F32>()
+    lucerna_app::board::pree::main::<lucerna_softfloat::F32>()
 }
 
 #[cfg(not(target_os = "none"))]

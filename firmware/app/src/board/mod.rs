@@ -3,9 +3,11 @@
 //! The report is text through semihosting, which QEMU and a debug probe show as it is. The log is defmt frames on UART1:
 //! `-monitor none -serial null -serial file:FILE` behind the runner's arguments keeps them, and `defmt-print -e ELF < FILE` reads them.
 
+pub mod displace;
 mod exit;
 mod host;
 mod log;
-pub mod model;
+pub mod pree;
+mod report;
 
 pub use exit::{failure, success};
