@@ -160,24 +160,56 @@ const OVERFLOW: f64 = f64::from_bits((1023 + 64) << 52);
 /// 2^-78, F24's least subnormal.
 const QUANTUM: f64 = f64::from_bits((1023 - 78) << 52);
 
-/// Twice the relative error of a rounding to 17 bits.
-const ROUNDING: f64 = 1.0 / (1 << 16) as f64;
+/// A little more than the relative error of a rounding to 17 bits, 2^-17: so much that what a rounding of the product does to
+/// the sum's is in it too.
+const ROUNDING: f64 = 1.001 / (1 << 17) as f64;
 
 /// The nearest F24 value to an f64, ties to even.
-///
-/// The sum is right for what is a normal F24 number after rounding; below 2^-62 a result of 2^-62 is that of the coarser
-/// subnormal grid as well.
 #[inline(always)]
 fn rounded(x: f64) -> HostF24 {
-    let bits = x.to_bits();
-    let to_even = (1u64 << (SPARE - 1)) - 1 + (bits >> SPARE & 1);
-    let nearest = bits.wrapping_add(to_even) >> SPARE << SPARE;
+    let nearest = nearest(x);
+    let magnitude = nearest.to_bits() << 1;
     // Exponents from that of the least normal number to below that of the overflow, whatever the sign.
     let least = LEAST_NORMAL.to_bits() << 1;
-    if (nearest << 1).wrapping_sub(least) < (OVERFLOW.to_bits() << 1) - least {
-        return HostF24(f64::from_bits(nearest));
-    }
-    if x == 0.0 { HostF24(x) } else { rounded_rare(x) }
+    let normal = magnitude.wrapping_sub(least) < (OVERFLOW.to_bits() << 1) - least;
+    if normal | (x == 0.0) { HostF24(nearest) } else { rounded_rare(x) }
+}
+
+/// An f64 rounded to 17 bits, ties to even: the nearest F24 value if that is a normal number, because below 2^-62 a result of
+/// 2^-62 is that of the coarser subnormal grid as well.
+#[inline(always)]
+fn nearest(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let to_even = (1u64 << (SPARE - 1)) - 1 + (bits >> SPARE & 1);
+    f64::from_bits(bits.wrapping_add(to_even) >> SPARE << SPARE)
+}
+
+/// Whether this is a normal F24 number, if it is one at all.
+#[inline(always)]
+fn is_normal(x: f64) -> bool {
+    (x.abs() >= LEAST_NORMAL) & (x.abs() < OVERFLOW)
+}
+
+/// `⌊(self + factor · other) · 2^log2⌋`, and whether the roundings that this leaves out are sure not to change it.
+#[inline(always)]
+fn product_floor(summand: HostF24, factor: HostF24, other: HostF24, log2: u32) -> (i32, bool) {
+    let product = factor.0 * other.0;
+    let sum = summand.0 + product;
+    let scale = power_of_two(log2 as i32);
+    let scaled = sum * scale;
+    // More than two roundings to 17 bits, or to subnormals, can be.
+    let doubt = ((product.abs() + sum.abs()) * ROUNDING + LEAST_NORMAL) * scale;
+    let anchored = scaled + ANCHOR;
+    let beyond = scaled - (anchored - ANCHOR);
+    // So far from an integer, and so small, no rounding changes the floor.
+    let sure = (scaled.abs() <= FLOOR_LIMIT) & (beyond.abs() > doubt) & (beyond.abs() + doubt < 0.5);
+    ((anchored.to_bits() as i32).wrapping_sub(i32::from(beyond < 0.0)), sure)
+}
+
+/// Keeps what is seldom done out of the way.
+#[cold]
+fn rarely<R>(task: impl FnOnce() -> R) -> R {
+    task()
 }
 
 /// Subnormals, infinities, NaN.
@@ -235,19 +267,31 @@ impl Format for HostF24 {
     }
     #[inline(always)]
     fn add_product_floor(self, factor: Self, other: Self, log2: u32) -> i32 {
-        let product = factor.0 * other.0;
-        let sum = self.0 + product;
-        let scale = power_of_two(log2 as i32);
-        let scaled = sum * scale;
-        // Twice what two roundings to 17 bits, or to subnormals, can be.
-        let doubt = ((product.abs() + sum.abs()) * ROUNDING + LEAST_NORMAL) * scale;
-        let anchored = scaled + ANCHOR;
-        let beyond = scaled - (anchored - ANCHOR);
-        // So far from an integer, and so small, no rounding changes the floor.
-        if scaled.abs() <= FLOOR_LIMIT && beyond.abs() > doubt && beyond.abs() + doubt < 0.5 {
-            return anchored.to_bits() as i32 - i32::from(beyond < 0.0);
+        let (floor, sure) = product_floor(self, factor, other, log2);
+        if sure { floor } else { self.add(factor.mul(other)).floor_scaled(log2) }
+    }
+    #[inline(always)]
+    fn add_product_floors(point: [Self; 2], direction: [Self; 2], t: Self, log2: [u32; 2]) -> [i32; 2] {
+        let (x, x_sure) = product_floor(point[0], direction[0], t, log2[0]);
+        let (y, y_sure) = product_floor(point[1], direction[1], t, log2[1]);
+        if x_sure & y_sure {
+            return [x, y];
         }
-        self.add(factor.mul(other)).floor_scaled(log2)
+        rarely(move || [0, 1].map(|axis| point[axis].add(direction[axis].mul(t)).floor_scaled(log2[axis])))
+    }
+    #[inline(always)]
+    fn edge_distances(edge: [i32; 2], log2: [u32; 2], point: [Self; 2], direction: [Self; 2]) -> [Self; 2] {
+        let scaled = [0, 1].map(|axis| f64::from(edge[axis]) * power_of_two(-(log2[axis] as i32)));
+        let differences = [0, 1].map(|axis| nearest(scaled[axis] - point[axis].0));
+        let quotients = [0, 1].map(|axis| nearest(differences[axis] / direction[axis].0));
+        let exact = |edge: i32| edge.wrapping_add(1 << 17) as u32;
+        let ([a, b], [c, d]) = (differences.map(is_normal), quotients.map(is_normal));
+        if a & b & c & d & (exact(edge[0]) | exact(edge[1]) < 1 << 18) {
+            return quotients.map(Self);
+        }
+        rarely(move || {
+            [0, 1].map(|axis| Self::from_scaled(edge[axis], log2[axis]).sub(point[axis]).div(direction[axis]))
+        })
     }
     #[inline(always)]
     fn from_scaled(integer: i32, log2: u32) -> Self {

@@ -156,12 +156,29 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     /// Stage 2 of the ring, and its turn; says whether a line was asked for.
     #[inline]
     pub(crate) fn turn(&mut self, outside: &mut Outside<'_, F>) -> bool {
-        let line = self.slots.access(outside.job, outside.depths, outside.memory, outside.counters);
-        self.slots.turn();
+        let Outside { job, depths, memory, counters, .. } = outside;
+        let (_, line) = self.slots.turns(1, false, job, depths, memory, counters);
         if let Some(line) = line {
-            outside.request(Cache::Height, line, self.slots.cache.geometry().line_bytes);
+            self.ask(line, outside);
         }
         line.is_some()
+    }
+
+    /// The ring turns until cycle `end`, or until something may leave or enter it, but at least once. When a line is to be asked
+    /// for, this is given, and the cycle is the one in which it is.
+    #[inline]
+    pub(crate) fn turns(&mut self, end: u64, outside: &mut Outside<'_, F>) -> Option<u32> {
+        let Outside { job, depths, memory, counters, now, .. } = outside;
+        let idle = self.fifo0.is_empty();
+        let (turned, line) = self.slots.turns(end - *now, idle, job, depths, memory, counters);
+        *now += turned - u64::from(line.is_some());
+        line
+    }
+
+    /// Asks for a line of heights.
+    #[inline]
+    pub(crate) fn ask(&self, line: u32, outside: &mut Outside<'_, F>) {
+        outside.request(Cache::Height, line, self.slots.cache.geometry().line_bytes);
     }
 
     /// The view calculation's results to FIFO #0.
@@ -182,7 +199,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     /// Whether nothing leaves or enters the ring in stage 1.
     #[inline]
     pub(crate) fn is_quiet(&self) -> bool {
-        self.slots.goes_on() || self.slots.is_free() && self.fifo0.is_empty()
+        self.slots.is_quiet(self.fifo0.is_empty())
     }
 
     /// When the view calculation has its next result.

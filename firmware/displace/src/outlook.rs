@@ -4,6 +4,7 @@ use lucerna_softfloat::Format;
 
 use crate::counters::Counters;
 use crate::instance::Instance;
+use crate::sizes::MAX_UNITS;
 
 const NEVER: u64 = u64::MAX;
 
@@ -38,7 +39,7 @@ impl Shading {
                 event = event.min(address.next_issue());
             }
         }
-        Self { event, seen: now, address_stalls: blocked, read_stalls: read.is_waiting() }
+        Self { event: event.max(now), seen: now, address_stalls: blocked, read_stalls: read.is_waiting() }
     }
 
     /// Counts the stalls of the cycles before `now`.
@@ -54,28 +55,28 @@ impl Shading {
 /// Of the switch and the view calculations it serves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Switching {
-    /// Nothing can be handed over before this cycle, unless FIFO #0 gets room or a view calculation gives its result.
+    /// Nothing can be handed over before this cycle, unless FIFO #0 gets room or a view calculation that was full gives a result.
     pub event: u64,
     /// The first cycle whose stalls are not counted yet.
     pub seen: u64,
-    /// View calculations that stall in each.
-    pub view_stalls: u64,
+    /// From when on each view calculation stalls.
+    stalls: [u64; MAX_UNITS as usize],
 }
 
 impl Switching {
     /// From cycle `now` on.
     #[inline]
     pub fn of<F: Format, const LINES: usize>(instances: &[Instance<F, LINES>], dry: bool, now: u64) -> Self {
-        let mut switching = Self { event: NEVER, seen: now, view_stalls: 0 };
+        let mut switching = Self { event: NEVER, seen: now, stalls: [NEVER; MAX_UNITS as usize] };
         if dry {
             return switching;
         }
-        for instance in instances {
-            if instance.view.can_issue(now) && !instance.has_room() {
-                switching.view_stalls += 1;
+        for (instance, stalls) in instances.iter().zip(&mut switching.stalls) {
+            let issue = instance.view.next_issue().max(now);
+            if instance.has_room() || instance.view.is_full() {
+                switching.event = switching.event.min(issue);
             } else {
-                // It takes a ray, or begins to be held.
-                switching.event = switching.event.min(instance.view.next_issue());
+                *stalls = issue;
             }
         }
         switching
@@ -84,7 +85,9 @@ impl Switching {
     /// Counts the stalls of the cycles before `now`.
     #[inline]
     pub fn catch_up(&mut self, now: u64, counters: &mut Counters) {
-        counters.view_stalls += (now - self.seen) * self.view_stalls;
+        for stalls in &self.stalls {
+            counters.view_stalls += now.saturating_sub(self.seen.max(*stalls));
+        }
         self.seen = now;
     }
 }

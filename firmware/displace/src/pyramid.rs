@@ -75,8 +75,9 @@ impl Shape {
 pub struct Order {
     /// The bits of each coordinate that count.
     wrap: [u32; 2],
-    /// How many bits both axes have.
+    /// How many bits both axes have, and these bits.
     shared: u32,
+    both: u32,
 }
 
 impl Order {
@@ -84,16 +85,16 @@ impl Order {
     #[inline]
     pub const fn of(shape: Shape) -> Self {
         let [w, h] = shape.log2;
-        Self { wrap: [(1 << w) - 1, (1 << h) - 1], shared: if w < h { w } else { h } }
+        let shared = if w < h { w } else { h };
+        Self { wrap: [(1 << w) - 1, (1 << h) - 1], shared, both: (1 << shared) - 1 }
     }
 
     /// The place of a texel; coordinates wrap.
     #[inline]
     pub const fn place(&self, x: u32, y: u32) -> u32 {
         let (x, y) = (x & self.wrap[0], y & self.wrap[1]);
-        let both = (1 << self.shared) - 1;
         // Only the longer axis has bits above the shared ones.
-        interleaved(x & both, y & both) | (x | y) >> self.shared << (2 * self.shared)
+        interleaved(x & self.both, y & self.both) | ((x | y) & !self.both) << self.shared
     }
 
     /// Whether a texel is on the map itself, not on a repetition.

@@ -13,7 +13,8 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
-use crate::traverse::walk::{Depths, Fetched, Ray, Step, Track, Walk};
+use crate::slot::{Slot, State};
+use crate::traverse::walk::{Depths, Fetched, Ray, Track, Walk};
 
 /// Stages of the pipeline, so slots of the ring (Fig. 7).
 pub const STAGES: usize = 15;
@@ -46,32 +47,13 @@ pub struct Ended<F> {
     pub start_level: u32,
 }
 
-/// What a slot is about.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum State {
-    /// No ray.
-    Empty,
-    /// The next turn is in the first mode.
-    Start,
-    /// The next turn is a step.
-    Walk,
-    /// A step's height comes with this line.
-    Wait { line: u32 },
-    /// The line has come.
-    Served,
-    /// The ray has ended.
-    Ended(Status),
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Slot<F> {
-    state: State,
-    number: u32,
-    start_level: u32,
-    /// Where it enters, for its hit coordinate.
-    entry: [F; 2],
-    track: Track<F>,
-    walk: Walk<F>,
+/// Where heights are.
+struct Heights<'a, F> {
+    /// The pyramid's words.
+    words: &'a [[u32; 1]],
+    /// Byte address of the first.
+    base: u32,
+    depths: &'a Depths<F>,
 }
 
 /// A traverse unit with its height cache.
@@ -110,10 +92,16 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         self.occupied == 0
     }
 
-    /// The ring turns by one stage.
+    /// Whether every slot holds a ray.
     #[inline]
-    pub fn turn(&mut self) {
-        self.entry = if self.entry + 1 == STAGES { 0 } else { self.entry + 1 };
+    pub const fn is_full(&self) -> bool {
+        self.occupied == STAGES
+    }
+
+    /// Whether nothing leaves or enters in stage 1, where no ray enters when it is `idle`.
+    #[inline]
+    pub fn is_quiet(&self, idle: bool) -> bool {
+        self.goes_on() || idle && self.is_free()
     }
 
     /// Whether stage 1 holds a ray that goes on: nothing leaves or enters then.
@@ -168,46 +156,77 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         self.occupied += 1;
     }
 
-    /// Stage 2, a turn of the slot there; gives the address whose line is to be asked for, if this is its first miss.
-    #[inline]
-    pub fn access(
+    /// Turns by up to `cycles` stages, at least one, until something may leave or enter in stage 1, where no ray enters when it
+    /// is `idle`. In each the slot in stage 2 has its turn. Gives how often it turned, and the line that is to be asked for if the
+    /// last turn was the first miss of it.
+    pub fn turns(
         &mut self,
+        cycles: u64,
+        idle: bool,
         job: &Job<F>,
         depths: &Depths<F>,
         memory: &[u32],
         counters: &mut Counters,
+    ) -> (u64, Option<u32>) {
+        let map = Heights { words: job.map.words.records(memory), base: job.map.words.address(0), depths };
+        let mut turned = 0;
+        let mut stage2 = if self.entry == 0 { STAGES - 1 } else { self.entry - 1 };
+        let line = loop {
+            let line = self.access(stage2, job, &map, counters);
+            stage2 = self.entry;
+            self.entry = if stage2 == STAGES - 1 { 0 } else { stage2 + 1 };
+            turned += 1;
+            if line.is_some() || turned >= cycles || !self.is_quiet(idle) {
+                break line;
+            }
+        };
+        (turned, line)
+    }
+
+    /// A slot's turn; gives the line that is to be asked for, if this is the first miss of it.
+    #[inline(always)]
+    fn access(
+        &mut self,
+        stage2: usize,
+        job: &Job<F>,
+        map: &Heights<'_, F>,
+        counters: &mut Counters,
     ) -> Option<u32> {
-        let stage2 = if self.entry == 0 { STAGES - 1 } else { self.entry - 1 };
         let slot = &mut self.slots[stage2];
         let served = slot.state == State::Served;
         if slot.state != State::Walk && !served {
             slot.other_turn(job, counters);
             return None;
         }
-        let Some(place) = job.terrain.field.place(slot.walk.leaf, slot.walk.level) else {
-            slot.step(job, None, counters);
-            return None;
-        };
-        if served {
-            counters.height_forwards += 1;
-        } else {
-            counters.height_accesses += 1;
-            let address = job.map.words.address(0) + place;
-            if !self.cache.lookup(address) {
-                let line = self.cache.line(address);
-                slot.state = State::Wait { line };
-                counters.height_misses += 1;
-                counters.traverse_waits += 1;
-                return (self.waiting_for(line) == 1).then_some(line);
+        let mut fetched = None;
+        if let Some(place) = job.terrain.field.place(slot.walk.leaf, slot.walk.level) {
+            if served {
+                counters.height_forwards += 1;
+            } else {
+                counters.height_accesses += 1;
+                let address = map.base + place;
+                if !self.cache.lookup(address) {
+                    return self.miss(stage2, address, counters);
+                }
+                counters.height_hits += 1;
             }
-            counters.height_hits += 1;
+            let [word] = map.words.get(place as usize / 4).copied().unwrap_or_default();
+            fetched = Some(Fetched { place, word, depths: map.depths });
         }
-        let word = job.map.words.value(memory, place / 4).unwrap_or(0);
-        slot.step(job, Some(Fetched { place, word, depths }), counters);
+        slot.step(job, fetched, counters);
         None
     }
 
+    /// The slot waits for a line; gives it, if no other slot does.
     #[cold]
+    fn miss(&mut self, stage2: usize, address: u32, counters: &mut Counters) -> Option<u32> {
+        let line = self.cache.line(address);
+        self.slots[stage2].state = State::Wait { line };
+        counters.height_misses += 1;
+        counters.traverse_waits += 1;
+        (self.waiting_for(line) == 1).then_some(line)
+    }
+
     fn waiting_for(&self, line: u32) -> usize {
         self.slots.iter().filter(|slot| slot.state == State::Wait { line }).count()
     }
@@ -222,62 +241,5 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
                 slot.state = State::Served;
             }
         }
-    }
-}
-
-impl<F: Format> Slot<F> {
-    /// A turn without a height.
-    fn other_turn(&mut self, job: &Job<F>, counters: &mut Counters) {
-        match self.state {
-            State::Empty => counters.traverse_bubbles += 1,
-            State::Start => {
-                self.walk = Walk::new(&self.track, &job.terrain);
-                self.start_level = self.walk.level;
-                counters.traverse_busy += 1;
-                counters.start_passes += 1;
-                counters.levels_saved += u64::from(job.terrain.field.shape().root() - self.walk.level);
-                self.state = State::Walk;
-            }
-            State::Wait { .. } => counters.traverse_waits += 1,
-            // Counted where it is held, in stage 1; the others have a height.
-            State::Ended(_) | State::Walk | State::Served => {}
-        }
-    }
-
-    #[inline]
-    fn step(&mut self, job: &Job<F>, fetched: Option<Fetched<'_, F>>, counters: &mut Counters) {
-        counters.traverse_busy += 1;
-        counters.steps += 1;
-        self.state = State::Walk;
-        match self.walk.step(&self.track, &job.terrain, fetched.as_ref()) {
-            Step::Down => counters.level_downs += 1,
-            Step::Cross { up } => {
-                counters.crossings += 1;
-                counters.level_ups += u64::from(up);
-            }
-            Step::CrossDown => {
-                counters.crossings += 1;
-                counters.folds += 1;
-                counters.level_downs += 1;
-            }
-            Step::CrossHit => {
-                counters.crossings += 1;
-                counters.folds += 1;
-                self.state = self.hit(job);
-                return;
-            }
-            Step::Hit => {
-                self.state = self.hit(job);
-                return;
-            }
-        }
-        if self.walk.steps >= job.watchdog {
-            self.state = State::Ended(Status::Watchdog);
-        }
-    }
-
-    #[inline]
-    fn hit(&self, job: &Job<F>) -> State {
-        State::Ended(if job.terrain.field.lets_hit(self.walk.leaf) { Status::Hit } else { Status::Miss })
     }
 }

@@ -120,6 +120,12 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
         self.flight.is_empty()
     }
 
+    /// Whether it holds as many operations as it can: it takes none, then.
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.flight.is_full()
+    }
+
     /// Drops what is in it, as at reset: cycles may then be counted from 0 again.
     pub fn clear(&mut self) {
         self.flight.clear();

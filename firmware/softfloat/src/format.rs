@@ -97,6 +97,19 @@ pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
     fn add_product_floor(self, factor: Self, other: Self, log2: u32) -> i32 {
         self.add(factor.mul(other)).floor_scaled(log2)
     }
+    /// [`add_product_floor`](Format::add_product_floor) on both axes of a plane: `point` and `direction` are of two axes each.
+    #[inline]
+    #[must_use]
+    fn add_product_floors(point: [Self; 2], direction: [Self; 2], t: Self, log2: [u32; 2]) -> [i32; 2] {
+        [0, 1].map(|axis| point[axis].add_product_floor(direction[axis], t, log2[axis]))
+    }
+    /// `(edge · 2^-log2 − point) / direction` on both axes of a plane: [`from_scaled`](Format::from_scaled), difference and
+    /// quotient, each rounded to the format.
+    #[inline]
+    #[must_use]
+    fn edge_distances(edge: [i32; 2], log2: [u32; 2], point: [Self; 2], direction: [Self; 2]) -> [Self; 2] {
+        [0, 1].map(|axis| Self::from_scaled(edge[axis], log2[axis]).sub(point[axis]).div(direction[axis]))
+    }
     /// `integer · 2^-log2`, rounded once when `integer` is within ±2^24. `log2` is at most 31.
     #[inline]
     #[must_use]

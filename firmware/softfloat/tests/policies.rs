@@ -105,7 +105,7 @@ fn the_trait_is_the_methods() {
     assert_eq!(hypotenuse::<F24>(3.0, 4.0).to_f32(), 5.0);
     assert_eq!((F24::NAME, F24::CODE as u32, F32::NAME, F32::CODE as u32), ("f24", 1, "f32", 0));
     assert_eq!(FormatCode::from_bits(1), Some(FormatCode::F24));
-    assert_eq!(FormatCode::from_bits(2), None);
+    assert_eq!(FormatCode::from_bits(3), None);
     assert_eq!(<F24 as Format>::from_bits(0xAB3F_0000), F24::ONE);
 }
 

@@ -29,6 +29,31 @@ fn same<H: Format, S: Format>(a: u32, b: u32) -> Result<(), TestCaseError> {
             prop_assert_eq!(host.to_bits(), soft.to_bits(), "{} {}", integer, log2);
         }
     }
+    on_both_axes::<H, S>([a, b], [b, a], b)?;
+    on_both_axes::<H, S>([a, b], [b, b], a)
+}
+
+/// What crossings and landings of rays are found by.
+fn on_both_axes<H: Format, S: Format>(
+    point: [u32; 2],
+    direction: [u32; 2],
+    t: u32,
+) -> Result<(), TestCaseError> {
+    let (hp, hd, sp, sd) = (
+        point.map(H::from_bits),
+        direction.map(H::from_bits),
+        point.map(S::from_bits),
+        direction.map(S::from_bits),
+    );
+    let small = [point[1] as i32 % 5000, direction[0] as i32 % 5000];
+    for (log2, edge) in [([0, 12], small), ([8, 8], [small[0]; 2]), ([11, 3], [t as i32, 1 << 17])] {
+        let host = H::add_product_floors(hp, hd, H::from_bits(t), log2);
+        let soft = S::add_product_floors(sp, sd, S::from_bits(t), log2);
+        prop_assert_eq!(host, soft, "{:08x?} {:08x?} {:08x} {:?}", point, direction, t, log2);
+        let host = H::edge_distances(edge, log2, hp, hd).map(H::to_bits);
+        let soft = S::edge_distances(edge, log2, sp, sd).map(S::to_bits);
+        prop_assert_eq!(host, soft, "{:?} {:08x?} {:08x?} {:?}", edge, point, direction, log2);
+    }
     Ok(())
 }
 
@@ -53,6 +78,9 @@ fn floors_go_down_and_are_clipped() {
     assert_eq!(HostF64(1.0 / 3.0), third, "53 bits inside");
     assert_eq!(HostF64::from_bits(third.to_bits()).to_f32(), 1.0 / 3.0, "24 outside");
     assert_eq!(HostF64(f64::NAN).to_bits(), 0x7fc0_0000);
+    for nan in [0x7fff_ffff, 0xffff_ffff, 0x7f80_0001].map(f32::from_bits) {
+        assert_eq!(HostF24::from_f32(nan).to_bits(), F24::from_f32(nan).to_bits());
+    }
 }
 
 proptest! {
@@ -70,5 +98,19 @@ proptest! {
     fn f24_at_its_edges((a, b) in (bits(24), prop::sample::select(vec![0x20_0000u32, 0x1f_ffff, 0x5f_0001, 0x3f_0000]))) {
         same::<HostF24, F24>(a, b)?;
         same::<HostF24, F24>(0x20_0000 | a & 0xffff, b)?;
+    }
+    /// Rays as jobs have them: points on tiles, often on a texel's edge or a digit beside it, so that what is rounded decides.
+    #[test]
+    fn rays_are_the_soft_ones(
+        texels in prop::array::uniform2(-600i32..600),
+        beside in prop::array::uniform2(0u32..3),
+        slopes in prop::array::uniform2(prop_oneof![Just(0.0f32), Just(0.125), Just(-0.25), -1.0f32..1.0]),
+        t in prop_oneof![Just(0.0f32), Just(1.0), (0u8..=255).prop_map(|height| f32::from(255 - height) / 255.0), 0.0f32..1.0],
+    ) {
+        let texel = |axis: usize| F24::from_f32(texels[axis] as f32 / 256.0).to_bits();
+        let point = [0, 1].map(|axis| texel(axis).wrapping_add(beside[axis]).wrapping_sub(1) & 0xff_ffff);
+        on_both_axes::<HostF24, F24>(point, slopes.map(|x| F24::from_f32(x).to_bits()), F24::from_f32(t).to_bits())?;
+        let point = [0, 1].map(|axis| (texels[axis] as f32 / 256.0).to_bits().wrapping_add(beside[axis]).wrapping_sub(1));
+        on_both_axes::<HostF32, F32>(point, slopes.map(f32::to_bits), t.to_bits())?;
     }
 }

@@ -48,7 +48,8 @@ impl<F: Format> Track<F> {
     /// The leaf texel at `t`.
     #[inline(always)]
     fn texel_at(&self, log2: [u32; 2], t: F) -> [i32; 2] {
-        [self.index(0, t, log2), self.index(1, t, log2)]
+        let [x, y] = F::add_product_floors(self.offset, self.direction, t, log2);
+        [self.texel[0] + x, self.texel[1] + y]
     }
 
     /// Its index on one axis.
@@ -68,14 +69,18 @@ impl<F: Format> Track<F> {
         })
     }
 
-    /// The parameter at which it leaves a node through the edge at leaf index `edge` (P12).
+    /// The axis on which it leaves a node whose edges ahead are at leaf indices `edge`, and the parameter at which it does
+    /// (P12); x goes first (P13). There is none when it goes straight down.
     #[inline(always)]
-    fn exit(&self, axis: usize, edge: i32, log2: [u32; 2]) -> Option<F> {
-        let direction = self.direction[axis];
-        if direction.eq(F::ZERO) {
+    fn exit(&self, edge: [i32; 2], log2: [u32; 2]) -> Option<(usize, F)> {
+        let from_texel = [edge[0] - self.texel[0], edge[1] - self.texel[1]];
+        let [x, y] = F::edge_distances(from_texel, log2, self.offset, self.direction);
+        let [across_x, across_y] = self.direction.map(|direction| !direction.eq(F::ZERO));
+        if !(across_x | across_y) {
             return None;
         }
-        Some(F::from_scaled(edge - self.texel[axis], log2[axis]).sub(self.offset[axis]).div(direction))
+        let second = !across_x | across_y & y.lt(x);
+        Some((usize::from(second), if second { y } else { x }))
     }
 }
 
@@ -231,7 +236,7 @@ impl<F: Format> Walk<F> {
     }
 
     /// One step. Without heights the node is beyond the border, where nothing is higher than the bottom.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, track: &Track<F>, terrain: &Terrain, heights: Option<&Fetched<'_, F>>) -> Step {
         self.steps += 1;
         let depth = heights.map_or(F::ONE, Fetched::depth);
@@ -257,7 +262,7 @@ impl<F: Format> Walk<F> {
     }
 
     /// Goes down, if this is not a leaf.
-    #[inline]
+    #[inline(always)]
     fn down(&mut self, policies: &Policies) -> bool {
         if self.level == 0 {
             return false;
@@ -270,7 +275,7 @@ impl<F: Format> Walk<F> {
     }
 
     /// What comes of a crossing: the end of the step, unless the entered node's height is at hand and the ray below it (P22).
-    #[inline]
+    #[inline(always)]
     fn look_around(&mut self, terrain: &Terrain, heights: Option<&Fetched<'_, F>>, up: bool) -> Step {
         if terrain.policies.siblings
             && !up
@@ -285,7 +290,7 @@ impl<F: Format> Walk<F> {
     }
 
     /// Crosses into the neighbour, if the ray leaves the node above `depth` (P10); says whether it went up.
-    #[inline]
+    #[inline(always)]
     fn cross(
         &mut self,
         track: &Track<F>,
@@ -299,14 +304,7 @@ impl<F: Format> Walk<F> {
         let level = self.level;
         let ahead = track.direction.map(|direction| F::ZERO.lt(direction));
         let boundary = [node[0] + i32::from(ahead[0]), node[1] + i32::from(ahead[1])];
-        let exits = [track.exit(0, boundary[0] << level, log2), track.exit(1, boundary[1] << level, log2)];
-        // P13: x goes first.
-        let (axis, exit) = match exits {
-            [Some(x), Some(y)] if y.lt(x) => (1, y),
-            [Some(x), _] => (0, x),
-            [None, Some(y)] => (1, y),
-            [None, None] => return None,
-        };
+        let (axis, exit) = track.exit(boundary.map(|index| index << level), log2)?;
         if !exit.lt(depth) {
             return None;
         }
