@@ -40,7 +40,7 @@ fn run(cli: Cli) -> Result<(), AnyError> {
             }
         }
         Command::Displace(args) => {
-            let options = args.options();
+            let options = args.options()?;
             let bar = progress(0);
             let report = displace::displace(&options, &bar)?;
             bar.finish_and_clear();
@@ -58,10 +58,11 @@ fn run(cli: Cli) -> Result<(), AnyError> {
         }
         Command::Reproduce(Reproduce::Displacement(args)) => {
             let bar = progress(0);
-            let (size, setup) = ((args.size.width, args.size.height), args.device.setup());
+            let (size, setup) = ((args.size.width, args.size.height), args.device.setup()?);
             let tables = reproduce::displacement::run(&args.maps, size, &setup, &args.out, &bar)?;
             bar.finish_and_clear();
-            say(format_args!("{tables}\n\nwrote displacement.json to {}", args.out.display()))?;
+            let out = std::path::absolute(&args.out)?;
+            say(format_args!("{tables}\n\nwrote displacement.json to {}", out.display()))?;
         }
         Command::Replay(args) => say(replay::run(&args)?)?,
         Command::Size => {

@@ -66,6 +66,8 @@ fn help_lists_every_command_and_option() {
         "--mesh",
         "--scheduler",
         "--allocation",
+        "relief-room",
+        "kitchen",
     ] {
         assert!(text(&help.stdout).contains(option), "{option}");
     }

@@ -132,9 +132,12 @@ fn a_picture_has_its_files_and_its_report_every_field() {
         "/mpixels_per_s_at_500mhz",
         "/steps_per_second",
         "/steps_per_second_over_oracle",
+        "/hits",
+        "/missed",
     ] {
         assert!(report.pointer(field).is_some_and(serde_json::Value::is_number), "{field}");
     }
+    assert_eq!(report["counters"].as_object().unwrap().len(), 37);
     assert!(report["rays"].as_u64().unwrap() > 2000);
     assert!(report["steps_per_pixel"].as_f64().unwrap() > 1.0);
 }
@@ -197,8 +200,32 @@ fn maps_are_read_or_explained() {
     map("odd.png", "100x64");
     map("text.png", "text.png");
     map("nowhere.png", "nowhere.png");
+    map("pebble", "neither a file nor a built-in height map");
     map(".", "height map");
     map("", "height map");
+}
+
+/// Settings nobody asked for, and options without effect, are named.
+#[test]
+fn what_the_user_should_know_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = image::GrayImage::from_pixel(256, 256, image::Luma([90]));
+    picture.save(folder.path().join("dent_height.png")).unwrap();
+    let notes = |more: &[&str]| report(folder.path(), more)["notes"].to_string();
+    let preset = notes(&["--map", "dent_height.png"]);
+    for word in ["preset dent", "depth 0.2", "repeat 4", "128 texels", "reduced"] {
+        assert!(preset.contains(word), "{word}: {preset}");
+    }
+    assert!(!notes(&["--map", "dent_height.png", "--scale", "0.1"]).contains("depth"));
+    assert_eq!(notes(&["--map", "bricks"]), "[]");
+    assert!(notes(&["--algorithm", "oh", "--reach", "2"]).contains("--reach has no effect"));
+    assert!(notes(&["--coherent", "parity"]).contains("--coherent has no effect"));
+    assert!(notes(&["--algorithm", "tevs", "--levels-down", "2"]).contains("--levels-down 2"));
+    let arguments = ["displace", "--size", "64x48", "--wrap", "border", "--repeat", "3", "--out", "out"];
+    let said = hostsim(folder.path(), &arguments);
+    assert!(text(&said.stdout).contains("missed") && text(&said.stderr).contains("one copy of the map"));
+    let said = text(&hostsim(folder.path(), &["displace", "--size", "64x48", "--source", "raster"]).stdout);
+    assert!(said.contains("take the view unit's time too"), "{said}");
 }
 
 #[test]
@@ -215,6 +242,8 @@ fn words_that_mean_nothing_are_refused() {
         (["--format", "f16"], "--format"),
         (["--cache", "16K,3,32"], "SIZE,WAYS,LINE"),
         (["--cache", "64M,4,32"], "SIZE,WAYS,LINE"),
+        (["--cache", "1024K,4,32"], "'--cache <CACHE>': the cache would have 32768 lines"),
+        (["--texture-cache", "16K,4,128"], "'--texture-cache <TEXTURE_CACHE>': a cache line"),
         (["--units", "5"], "--units"),
         (["--units", "0"], "--units"),
         (["--size", "0x1"], "WIDTHxHEIGHT"),
@@ -224,7 +253,7 @@ fn words_that_mean_nothing_are_refused() {
     }
     fs::write(folder.path().join("file"), "").unwrap();
     refused(folder.path(), &["displace", "--size", "8x8", "--out", "file"], "file");
-    refused(folder.path(), &["displace", "--size", "8x8", "--cache", "1024K,4,32"], "cache");
+    refused(folder.path(), &["displace", "--format", "f64", "--arith", "soft"], "no soft-float f64");
 }
 
 /// Any of the seven maps will do; what is not there is said.
@@ -233,15 +262,23 @@ fn the_tables_are_printed_for_the_maps_that_are_there() {
     let folder = tempfile::tempdir().unwrap();
     refused(folder.path(), &["reproduce", "displacement", "--maps", "."], "rocks_height.png");
     refused(folder.path(), &["reproduce", "displacement"], "--maps");
+    refused(folder.path(), &["reproduce", "displacement", "--maps", "nowhere"], "cannot be read");
     for (name, built_in) in [("rocks", "pebbles"), ("dent", "craters")] {
         let map = procedural::map(built_in).unwrap();
         let picture = image::GrayImage::from_raw(256, 256, map.heights().to_vec()).unwrap();
         picture.save(folder.path().join(format!("{name}_height.png"))).unwrap();
     }
+    refused(folder.path(), &["reproduce", "displacement", "--maps", "dent_height.png"], "is a file");
     let arguments = ["reproduce", "displacement", "--maps", ".", "--size", "64x48", "--out", "out"];
     let output = hostsim(folder.path(), &arguments);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let said = text(&output.stdout);
+    assert!(
+        said.contains("nothing is concluded") && !said.contains("ray tracer"),
+        "one map has no law: {said}"
+    );
+    let place = folder.path().canonicalize().unwrap().join("out");
+    assert!(said.contains(place.to_str().unwrap()), "the folder is named whole");
     for word in
         ["Table 1", "Table 2", "Table 3", "Table 4", "Table 5", "Tables 6, 7", "stones_height.png", "reduced"]
     {

@@ -165,6 +165,11 @@ impl<F: Format> Bench<F> {
         let sizes = Sizes { map: shape(map), texture, normals, rays: most, results: most };
         let device = Device::new(unit, vec![0; sizes.bytes() as usize / 4 + 64]).expect("sizes of a unit");
         let model = Box::new(Model::new(device));
+        let layout = Self::place(&model, map, sizes);
+        Self { model, layout }
+    }
+
+    fn place(model: &Model<Device<F>>, map: &HeightMap, sizes: Sizes) -> Layout {
         let mut lucerna = Lucerna::probe(model.bus(), model.delay()).expect("a device");
         let layout = Layout::packed(lucerna.capabilities(), sizes).expect("room for it");
         let mut displace = lucerna.displace().expect("a displacement unit");
@@ -174,8 +179,7 @@ impl<F: Format> Bench<F> {
         displace.write_texture_with(&layout, spread).expect("a texture");
         let up = |x: u32, y: u32| normal([(x % 3) as f32 - 1.0, (y % 3) as f32 - 1.0, 1.0]);
         displace.write_normals_with(&layout, up).expect("normals");
-        drop(lucerna);
-        Self { model, layout }
+        layout
     }
 
     /// A list of rays to its end.

@@ -85,7 +85,7 @@ impl What {
     /// The list's rays; none of a camera.
     pub fn rays(self) -> Vec<Ray> {
         let ray = |i: u32| {
-            let (u, v) = ((i % SIZE.0) as f32 / 8.0, (i / SIZE.0) as f32 / 6.0);
+            let (u, v) = (((i % SIZE.0) as f32 + 0.37) / 8.0, ((i / SIZE.0) as f32 + 0.41) / 6.0);
             Ray { entry: [u, v], view: [u - 1.0, -1.0, 1.0 - v] }
         };
         (0..self.sizes().rays).map(ray).collect()

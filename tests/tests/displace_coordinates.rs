@@ -33,6 +33,7 @@ fn mismatches<F: Format, N: Number>(
 
 #[test]
 fn any_repeat_is_traversed_exactly() {
+    let mut worst = 0.0f64;
     for (map, surface) in fixtures().into_iter().skip(1).step_by(3) {
         let columns = columns(&map, Wrap::Repeat);
         let f64 = Bench::<HostF64>::new(&map, 4000);
@@ -46,13 +47,14 @@ fn any_repeat_is_traversed_exactly() {
                     let context = format!("{} x{repeat} {name}", map.name());
                     let (wrong, of) = mismatches::<_, f64>(&f64, &columns, (&rays, frame), policies);
                     assert!(wrong == 0 && of > 2000, "{context}: {wrong} of {of}");
-                    // A texel is a fifth of what it is at repeat 1, for numbers as coarse.
                     let (wrong, of) = mismatches::<_, Bits24>(&f24, &columns, (&rays, frame), policies);
-                    assert!(wrong * 60 < of, "{context}: {wrong} of {of} in F24");
+                    worst = worst.max(wrong as f64 / of as f64);
                 }
             }
         }
     }
+    println!("F24: at worst {:.3} % of a picture's rays end in another texel", 100.0 * worst);
+    assert!(worst < 0.003, "{worst}");
 }
 
 /// A camera's own rays, the surface ending at a repeat that is no whole number: a miss is just what lies beyond.
@@ -94,7 +96,8 @@ fn a_raster_ends_where_its_extent_does() {
             let [hits, wrong] = check::<HostF64, f64>(repeat, &view);
             assert!(hits > 300 && wrong == 0, "{repeat}: {wrong} of {hits}");
             let [hits, wrong] = check::<HostF24, Bits24>(repeat, &view);
-            assert!(hits > 300 && wrong * 60 < hits, "{repeat}: {wrong} of {hits} in F24");
+            println!("x{repeat}: {wrong} of {hits}");
+            assert!(hits > 300 && wrong * 300 < hits, "{repeat}: {wrong} of {hits} in F24");
         }
     }
 }
@@ -108,34 +111,34 @@ fn tiles(rng: &mut Rng, offset: f32) -> Vec<Ray> {
         .collect()
 }
 
-/// Below 0 as above, and as far as 1000 tiles away: exact in f64; in F24, where a texel is less than a number's last bit, the
-/// ray still ends, on the surface, and never loops.
+/// Below 0 as above, and as far as 1000 tiles away, where a texel is less than the last bit of an F24: what is rounded is the
+/// way from the entry and not the place on the map (P24), so the ray of the rounded entry is followed as well as any.
 #[test]
 fn below_zero_and_far_away() {
     let mut rng = Rng(3);
+    let mut wrong = [[0; 3]; 4];
+    let mut of = [0; 4];
     for (number, (map, _)) in fixtures().into_iter().enumerate() {
         let columns = columns(&map, Wrap::Repeat);
         let f64 = Bench::<HostF64>::new(&map, 300);
         let (f32, f24) = (Bench::<HostF32>::new(&map, 300), Bench::<HostF24>::new(&map, 300));
-        for offset in [0.0, -4.0, 37.0, -1000.0] {
-            let rays = tiles(&mut rng, offset);
-            for (name, policies) in algorithms().into_iter().skip(number % 4).step_by(4) {
-                let context = format!("{} at {offset} {name}", map.name());
-                let (wrong, _) = mismatches::<_, f64>(&f64, &columns, (&rays, FLAT), policies);
-                assert_eq!(wrong, 0, "{context}");
-                for ended in [f32.list(&rays, FLAT, policies), f24.list(&rays, FLAT, policies)] {
-                    assert_eq!(ended.counters.watchdogs, 0, "{context}");
-                    assert_eq!(ended.counters.hits, 300, "{context}");
-                    for (ray, result) in rays.iter().zip(&ended.results) {
-                        let near = |axis: usize| (result.position[axis] - ray.entry[axis]).abs() < 0.75;
-                        assert!(
-                            near(0) && near(1) && (0.0..=1.0).contains(&result.t),
-                            "{context} {ray:?} {result:?}"
-                        );
-                    }
-                }
+        for (place, offset) in [0.0, -4.0, 37.0, -1000.0].into_iter().enumerate() {
+            let rays = (&tiles(&mut rng, offset)[..], FLAT);
+            for (_, policies) in algorithms().into_iter().skip(number % 4).step_by(4) {
+                let found = [
+                    mismatches::<_, f64>(&f64, &columns, rays, policies),
+                    mismatches::<_, f32>(&f32, &columns, rays, policies),
+                    mismatches::<_, Bits24>(&f24, &columns, rays, policies),
+                ];
+                of[place] += rays.0.len();
+                (0..3).for_each(|format| wrong[place][format] += found[format].0);
             }
         }
+    }
+    println!("other texels in f64, f32, F24: {wrong:?} of {of:?}");
+    for (wrong, of) in wrong.iter().zip(of) {
+        assert_eq!(wrong[0], 0, "in f64 there is no excuse");
+        assert!(wrong[1] * 5000 < of && wrong[2] * 300 < of, "{wrong:?} of {of}");
     }
 }
 
@@ -166,15 +169,15 @@ fn odd_results<F: Format>(rays: &[Ray], policies: Policies) -> Vec<[u32; 8]> {
         Job::new(&bench.layout, Source::List { count: rays.len() as u32 }, FLAT, policies).expect("a list");
     let ended = bench.run(rays, &job.with_watchdog(200).expect("enough"));
     for (ray, result) in rays.iter().zip(&ended.results) {
-        let upwards = !(ray.view[2] < 0.0);
+        let downwards = ray.view[2] < 0.0;
         match result.status {
             RayStatus::Grazing => {}
-            RayStatus::Hit | RayStatus::Miss => assert!(!upwards && result.steps > 0, "{ray:?} {result:?}"),
+            RayStatus::Hit | RayStatus::Miss => assert!(downwards && result.steps > 0, "{ray:?} {result:?}"),
             RayStatus::Watchdog => {
                 // Direction of a tile a step and more, or no number at all.
                 let slopes = [ray.view[0] / ray.view[2], ray.view[1] / ray.view[2]];
-                let far =
-                    ray.entry.iter().any(|at| !at.is_finite()) || slopes.iter().any(|s| !(s.abs() < 10.0));
+                let far = ray.entry.iter().any(|at| !at.is_finite())
+                    || slopes.iter().any(|s| s.is_nan() || s.abs() >= 10.0);
                 assert!(far && result.steps == 200, "{ray:?} {result:?}");
             }
             RayStatus::Unknown(_) => panic!("{ray:?} {result:?}"),

@@ -51,7 +51,8 @@ fn a_ray_alone_on_a_flat_map() {
     let by_hand = FIRST_TURN + served(FILL) + 2 * 15 + OUT + shading;
     assert_eq!((c.cycles, by_hand), (by_hand, 202));
     assert_eq!((c.traverse_busy, c.traverse_waits, c.read_stalls), (3, 3, 2 * (FILL - 1)));
-    assert_eq!((c.view_busy, c.address_busy, c.read_busy, c.colour_busy), (3, 2, 2, 4));
+    // Each texel is asked for, and comes with its line.
+    assert_eq!((c.view_busy, c.address_busy, c.read_busy, c.colour_busy), (3, 2, 2 * 2, 4));
     assert_eq!((c.port_bytes, c.port_busy, c.result_bytes), (3 * 32, 3 * 4, 32));
 
     // The start level of a ray straight down is 0: a pass, and one step.

@@ -1,7 +1,7 @@
 //! Does every algorithm find the texel that a march through every column finds, in as many steps as it should?
 //!
 //! Built-in maps, the paper's views and random ones, through driver and device. In f64 there is no excuse but a ray that goes
-//! exactly through a corner; in F24 rounding may turn one ray in a thousand aside.
+//! exactly through a corner; in F24 rounding turns a few rays in ten thousand aside.
 
 use hostsim::displace::rules::rules;
 use hostsim::displace::view::View;
@@ -104,10 +104,6 @@ fn in_f64_every_texel_is_that_of_the_march_and_every_step_is_counted() {
         let tally = tally(cell.ended, cell.marched);
         assert_eq!(tally.others, 0, "{name}: hit another texel, and not at a corner");
         all.add(tally);
-        // The traversal's own oracle knows the paper's policies; of `fold` the texel is all there is to compare.
-        if cell.policies == Policies::FOLD {
-            return;
-        }
         let rules = rules(&cell.policies);
         let mut crossings = 0;
         for (result, ray) in cell.ended.results.iter().zip(cell.exact) {
@@ -124,7 +120,7 @@ fn in_f64_every_texel_is_that_of_the_march_and_every_step_is_counted() {
     assert!(all.corners * 20_000 < all.rays, "corners are rare: {all:?}");
 }
 
-/// Over everything, as the acceptance figure is meant; where a smooth map is seen aslant, a rounded depth is the next texel's.
+/// Over everything, and in the worst picture: on a flat map seen aslant a rounded way to the bottom is the next texel's.
 #[test]
 fn in_f24_nearly_every_texel_is_that_of_the_march() {
     let mut cells: Vec<(String, Tally)> = Vec::new();
@@ -138,8 +134,9 @@ fn in_f24_nearly_every_texel_is_that_of_the_march() {
     for (name, tally) in &cells[..12] {
         println!("  {:.4} % {name} {tally:?}", tally.agreement());
     }
-    assert!(all.agreement() >= 99.85, "{all:?}");
-    assert!(cells[0].1.agreement() >= 99.5, "{:?}", cells[0]);
+    // 99.85 was asked for; P24 is worth the rest, and this is how its loss would be seen.
+    assert!(all.agreement() >= 99.95, "{all:?}");
+    assert!(cells[0].1.agreement() >= 99.8, "{:?}", cells[0]);
 }
 
 /// 200 random views of every map, each by one of the algorithms in turn.
@@ -171,7 +168,7 @@ fn at_random<F: Format, N: Number>(size: Size) -> Tally {
 #[test]
 fn no_random_view_loops_or_skips() {
     let f24 = at_random::<HostF24, Bits24>((20, 15));
-    assert!(f24.rays > 200_000 && f24.agreement() >= 99.85, "{f24:?}");
+    assert!(f24.rays > 200_000 && f24.agreement() >= 99.95, "{f24:?}");
     let f32 = at_random::<HostF32, f32>((16, 12));
     assert!(f32.rays > 100_000 && f32.agreement() >= 99.99, "{f32:?}");
     let f64 = at_random::<HostF64, f64>((16, 12));

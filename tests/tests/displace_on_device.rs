@@ -112,7 +112,7 @@ fn a_job_s_handle_may_be_lost_and_the_job_is_not() {
             assert_eq!(what.run(&mut device).unwrap(), expected);
             // Another owner finds it running, and may wait for it just as well.
             start(&mut device);
-            drop(device);
+            let _ = device.release();
             let mut device = Lucerna::probe(model.bus(), model.delay()).unwrap();
             assert_eq!(device.state(), State::Running);
             let early = device
@@ -246,7 +246,7 @@ fn device_errors_are_explained() {
             panic!("{error}")
         };
         assert_eq!((found, error.state), (code, State::Faulted));
-        assert!(address.is_none_or(|address| address == at) && (at - results) % 32 == 0);
+        assert!(address.is_none_or(|address| address == at) && (at - results).is_multiple_of(32));
         assert!(error.to_string().contains(&format!("{at:#x}")) && error.to_string().len() > 40, "{error}");
         device.recover().unwrap();
         assert_eq!(what.run(&mut device).unwrap(), expected);

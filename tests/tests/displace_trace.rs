@@ -67,7 +67,7 @@ fn trace(model: &Model<Any>) -> String {
     unit.read_results(&layout, 0, &mut results).unwrap();
     assert!(results.iter().any(|result| result.status == RayStatus::Hit));
     assert!(unit.counters().unwrap().steps > 500);
-    drop(device);
+    let _ = device.release();
     text.into_inner()
 }
 

@@ -50,7 +50,7 @@ counters! {
     traverse_busy,
     /// Turns lost waiting for a line fill.
     traverse_waits,
-    /// Turns in which a finished ray was held by a full FIFO #1.
+    /// Turns of a ray that has ended, held by a full FIFO #1 or refused (out of reach).
     traverse_stalls,
     /// Turns of an empty slot.
     traverse_bubbles,
@@ -58,13 +58,13 @@ counters! {
     address_busy,
     /// Cycles in which it had a ray and the read unit did not take what it had.
     address_stalls,
-    /// Cycles in which the read unit's port was used.
+    /// Cycles in which the read unit's port, or a line on its way in, was used.
     read_busy,
-    /// Cycles in which it waited for a line fill.
+    /// Cycles in which it waited, for a line fill or for the colour calculation.
     read_stalls,
     /// Cycles in which the colour calculation's issue was taken.
     colour_busy,
-    /// First tries of the height cache, one a step.
+    /// First tries of the height cache, one a step but for nodes beyond the border.
     height_accesses,
     /// Of these, those that found their line.
     height_hits,
@@ -82,9 +82,9 @@ counters! {
     texture_misses,
     /// Lines filled into it.
     texture_fills,
-    /// Bytes that came through the memory port.
+    /// Bytes asked for at the memory port.
     port_bytes,
-    /// Cycles in which the memory port transferred.
+    /// Cycles in which the memory port transfers them.
     port_busy,
     /// Bytes of results.
     result_bytes,

@@ -8,7 +8,7 @@ use crate::instance::Instance;
 use crate::job::{Fault, FaultCode, Job};
 use crate::outside::{MemoryPort, Outside};
 use crate::source::Source;
-use crate::traverse::walk::Depths;
+use crate::traverse::heights::Depths;
 
 pub use crate::sizes::{PortSizes, SizeError, Sizes};
 pub use lucerna_fabric::cache::Geometry;
@@ -202,12 +202,12 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
             outside.unit = unit;
             instance.tick(outside);
         }
+        outside.counters.cycles += 1;
         if let Some(fault) = outside.fault {
             return Some(Event::Fault(fault));
         }
         let _ = self.switch();
         let outside = &mut self.outside;
-        outside.counters.cycles += 1;
         outside.now += 1;
         (*outside.done == outside.job.results.count()).then_some(Event::Done)
     }

@@ -182,13 +182,13 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
                 settle_view(instance, outside, agenda);
             }
         }
+        outside.counters.cycles += 1;
         if let Some(fault) = outside.fault {
             return Some(Event::Fault(fault));
         }
         if now >= agenda.switching.event {
             self.hand_over(agenda);
         }
-        self.outside.counters.cycles += 1;
         self.outside.now += 1;
         (*self.outside.done == self.outside.job.results.count()).then_some(Event::Done)
     }

@@ -21,7 +21,7 @@ use crate::shade::address::{Addresses, Hit, addresses};
 use crate::shade::colour::colour;
 use crate::sizes::{Caches, MAX_FIFO, Sizes};
 use crate::slots::{Ended, Entrant, Slots};
-use crate::traverse::walk::Ray;
+use crate::traverse::ray::Ray;
 use crate::view::View;
 
 /// One instance.
@@ -95,12 +95,15 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         if let Some(Fetch { number, outcome, texture, normal }) = self.colour.take(now) {
             outside.result(number, &Outcome { colour: colour(&job.light, texture, normal), ..outcome });
         }
-        if self.read.is_done()
-            && self.colour.can_issue(now)
-            && let Some(fetch) = self.read.take()
-        {
-            outside.counters.colour_busy += u64::from(self.colour.pace().interval);
-            let _ = self.colour.issue(now, fetch);
+        if self.read.is_done() {
+            if self.colour.can_issue(now)
+                && let Some(fetch) = self.read.take()
+            {
+                outside.counters.colour_busy += u64::from(self.colour.pace().interval);
+                let _ = self.colour.issue(now, fetch);
+            } else {
+                outside.counters.read_stalls += 1;
+            }
         }
         if self.address.ready(now).is_some() {
             if self.read.is_idle()
@@ -142,8 +145,6 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
                 outside.result(ended.number, &Outcome { colour, ..unshaded(&ended) });
             } else if self.fifo1.len() < self.depth1 && self.fifo1.push_back(ended).is_ok() {
                 self.slots.release();
-            } else {
-                outside.counters.traverse_stalls += 1;
             }
         }
         if self.slots.is_free()
@@ -192,7 +193,9 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
                 let _ = self.fifo0.push_back(Entrant { number, ray: Ray { entry, direction } });
             }
             View::Miss => outside.result(number, &Outcome::untraversed(Status::Miss, outside.job.background)),
-            View::Grazing => outside.result(number, &Outcome::untraversed(Status::Grazing, 0)),
+            View::Grazing => {
+                outside.result(number, &Outcome::untraversed(Status::Grazing, outside.job.background))
+            }
         }
     }
 

@@ -7,7 +7,8 @@ use crate::pyramid::{MAX_LOG2, Shape};
 use crate::record::{RAY_WORDS, RESULT_WORDS};
 use crate::shade::colour::Light;
 use crate::traverse::Policies;
-use crate::traverse::walk::{Field, Terrain};
+use crate::traverse::heights::Field;
+use crate::traverse::walk::Terrain;
 
 /// Why a job was refused or stopped; the codes of register `ERROR`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

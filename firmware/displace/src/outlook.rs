@@ -39,7 +39,12 @@ impl Shading {
                 event = event.min(address.next_issue());
             }
         }
-        Self { event: event.max(now), seen: now, address_stalls: blocked, read_stalls: read.is_waiting() }
+        Self {
+            event: event.max(now),
+            seen: now,
+            address_stalls: blocked,
+            read_stalls: read.is_waiting() || read.is_done(),
+        }
     }
 
     /// Counts the stalls of the cycles before `now`.

@@ -8,7 +8,7 @@ use crate::job::{Fault, FaultCode, Job, RayFaults};
 use crate::record::{Outcome, RESULT_WORDS, Status};
 use crate::sizes::MAX_UNITS;
 use crate::slots::STAGES;
-use crate::traverse::walk::Depths;
+use crate::traverse::heights::Depths;
 
 /// Which of an instance's caches.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -122,10 +122,10 @@ impl<F: Format, const LINES: usize> Read<F, LINES> {
             counters.read_stalls += 1;
             return None;
         }
+        counters.read_busy += 1;
         if !core::mem::take(&mut self.served) {
             let address = map.words.address(*word);
             counters.texture_accesses += 1;
-            counters.read_busy += 1;
             if !self.cache.lookup(address) {
                 counters.texture_misses += 1;
                 let line = self.cache.line(address);

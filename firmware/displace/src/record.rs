@@ -32,7 +32,7 @@ pub enum Status {
     Hit = 0,
     /// A pixel beside the surface, or a ray that left a map without wrap.
     Miss = 1,
-    /// It does not come down on the surface (P18).
+    /// It does not come down on the surface (P18), or enters it 2^24 texels from the origin or further.
     Grazing = 2,
     /// The watchdog stopped it.
     Watchdog = 3,

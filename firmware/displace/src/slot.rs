@@ -5,7 +5,9 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
-use crate::traverse::walk::{Fetched, Step, Track, Walk};
+use crate::traverse::heights::Fetched;
+use crate::traverse::ray::Track;
+use crate::traverse::walk::{Step, Walk};
 
 /// What a slot is about.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -52,8 +54,9 @@ impl<F: Format> Slot<F> {
                 self.state = State::Walk;
             }
             State::Wait { .. } => counters.traverse_waits += 1,
-            // Counted where it is held, in stage 1; the others have a height.
-            State::Ended(_) | State::Walk | State::Served => {}
+            State::Ended(_) => counters.traverse_stalls += 1,
+            // These have a height.
+            State::Walk | State::Served => {}
         }
     }
 

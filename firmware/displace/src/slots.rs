@@ -14,7 +14,9 @@ use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
 use crate::slot::{Slot, State};
-use crate::traverse::walk::{Depths, Fetched, Ray, Track, Walk};
+use crate::traverse::heights::{Depths, Fetched};
+use crate::traverse::ray::{Ray, Track};
+use crate::traverse::walk::Walk;
 
 /// Stages of the pipeline, so slots of the ring (Fig. 7).
 pub const STAGES: usize = 15;
@@ -70,8 +72,8 @@ pub struct Slots<F, const LINES: usize> {
 impl<F: Format, const LINES: usize> Slots<F, LINES> {
     /// An empty ring.
     pub fn new(cache: Tags<LINES>) -> Self {
-        let track = Track { texel: [0; 2], offset: [F::ZERO; 2], direction: [F::ZERO; 2] };
-        let walk = Walk { t: F::ZERO, leaf: [0; 2], level: 0, crossed: false, stayed: false, steps: 0 };
+        let track = Track { origin: [0; 2], offset: [F::ZERO; 2], direction: [F::ZERO; 2] };
+        let walk = Walk::NOWHERE;
         let empty = Slot { state: State::Empty, number: 0, start_level: 0, entry: [F::ZERO; 2], track, walk };
         Self { slots: [empty; STAGES], entry: 0, occupied: 0, cache }
     }
@@ -147,7 +149,10 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         slot.entry = entrant.ray.entry;
         slot.track = entrant.ray.track(job.terrain.field.shape().log2());
         slot.start_level = job.terrain.field.shape().root();
-        if job.terrain.policies.start_level {
+        if !slot.track.is_in_reach() {
+            slot.walk = Walk::NOWHERE;
+            slot.state = State::Ended(Status::Grazing);
+        } else if job.terrain.policies.start_level {
             slot.state = State::Start;
         } else {
             slot.walk = Walk::new(&slot.track, &job.terrain);

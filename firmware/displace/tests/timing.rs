@@ -6,7 +6,9 @@ use common::{Heights, RayOf, Scene};
 use lucerna_displace::engine::{Displace, Event, Sizes};
 use lucerna_displace::job::{FaultCode, RayFaults};
 use lucerna_displace::record::{Outcome, Status};
-use lucerna_displace::traverse::walk::{Depths, Fetched, Field, Ray, Step, Terrain, Walk};
+use lucerna_displace::traverse::heights::{Depths, Fetched, Field};
+use lucerna_displace::traverse::ray::Ray;
+use lucerna_displace::traverse::walk::{Step, Terrain, Walk};
 use lucerna_displace::traverse::{Ascend, Coherent, Policies, Wrap};
 use lucerna_fabric::cache::Geometry;
 use lucerna_softfloat::{F24, F32, Format};
@@ -57,6 +59,9 @@ fn plain<F: Format>(
         let down = F::ZERO.sub(z);
         let ray = Ray { entry: entry.map(F::from_f32), direction: [x.div(down), y.div(down)] };
         let track = ray.track(shape.log2());
+        if !track.is_in_reach() {
+            return (Status::Grazing, [0; 2], F::ZERO.to_bits(), 0);
+        }
         let mut walk = Walk::new(&track, &terrain);
         while walk.steps < scene.description.watchdog {
             let fetched = terrain.field.place(walk.leaf, walk.level).map(|place| {
@@ -90,6 +95,9 @@ fn check<F: Format>(
     prop_assert_eq!(event, fast_event);
     prop_assert_eq!(truth.counters(), fast.counters());
     prop_assert!(memory == fast_memory, "bits differ");
+    let c = truth.counters();
+    let turns = c.traverse_busy + c.traverse_waits + c.traverse_bubbles + c.traverse_stalls;
+    prop_assert_eq!(turns, c.cycles * u64::from(sizes.units));
     if let Event::Fault(fault) = event {
         prop_assert_eq!(ray_faults, RayFaults::Stop);
         let status = memory[fault.address as usize / 4 + 3] >> 24;
@@ -103,15 +111,11 @@ fn check<F: Format>(
         prop_assert_eq!([words[0] as i32, words[1] as i32], texel, "ray {}", ray);
         prop_assert_eq!((words[2], words[3] & 0xFFFF), (t, steps), "ray {}", ray);
     }
-    let c = truth.counters();
-    let units = u64::from(sizes.units);
     prop_assert_eq!(c.rays, rays.len() as u64);
     prop_assert_eq!(c.hits + c.missed + c.grazing + c.watchdogs, c.rays);
     prop_assert_eq!(c.height_hits + c.height_misses, c.height_accesses);
     prop_assert_eq!(c.traverse_busy, c.steps + c.start_passes);
     prop_assert_eq!(c.height_forwards, c.height_misses);
-    let turns = c.traverse_busy + c.traverse_waits + c.traverse_bubbles;
-    prop_assert!(turns <= c.cycles * units && turns + c.traverse_stalls >= c.cycles * units);
     prop_assert_eq!(
         c.port_bytes,
         c.height_fills * u64::from(sizes.height_cache.line_bytes)
@@ -178,7 +182,7 @@ fn heights() -> impl Strategy<Value = Heights> {
 }
 
 fn rays() -> impl Strategy<Value = Vec<RayOf>> {
-    let special = prop::sample::select(vec![0.0f32, 0.25, 0.5, 1.0, -1.0, -0.375, 3.0]);
+    let special = prop::sample::select(vec![0.0f32, 0.25, 0.5, 1.0, -1.0, -0.375, 3.0, -1e-6, -1e-20]);
     let entry = prop_oneof![special.clone(), -2.0f32..3.0];
     let slope = prop_oneof![special, -1.5f32..1.5];
     let z = prop_oneof![9 => Just(-1.0f32), 1 => -2.0f32..0.2];

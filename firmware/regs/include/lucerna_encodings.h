@@ -97,7 +97,7 @@
 #define LUCERNA__DISPLACE__ERROR__CODE__TOO_LARGE 3 // The byte size or the end of a buffer does not fit 32 bits; FAULT_ADDRESS is its base.
 #define LUCERNA__DISPLACE__ERROR__CODE__BAD_MAP 4 // A map is larger than 4096 texels along an axis; FAULT_ADDRESS is its base.
 #define LUCERNA__DISPLACE__ERROR__CODE__BAD_RASTER 5 // A raster has no pixel.
-#define LUCERNA__DISPLACE__ERROR__CODE__GRAZING_RAY 6 // A listed ray does not come down on the surface (P18), and RAY_FAULTS is STOP; FAULT_ADDRESS is its result record.
+#define LUCERNA__DISPLACE__ERROR__CODE__GRAZING_RAY 6 // A listed ray does not come down on the surface (P18), or enters it 2^24 texels from the origin or further, and RAY_FAULTS is STOP; FAULT_ADDRESS is its result record.
 #define LUCERNA__DISPLACE__ERROR__CODE__WATCHDOG 7 // A ray took WATCHDOG steps (P11), and RAY_FAULTS is STOP; FAULT_ADDRESS is its result record.
 #define LUCERNA__DISPLACE__ERROR__CODE__OVERLAP 8 // The results would overwrite a map or the rays; FAULT_ADDRESS is RESULT_BASE.
 #define LUCERNA__DISPLACE__ERROR__CODE__NOT_IDLE 9 // START while running; the running job goes on.

@@ -8,6 +8,7 @@ use lucerna_displace::engine::Geometry;
 use lucerna_driver::{Allocation, Busy, Hazard, InputWidth, NumberFormat, Scheduler};
 
 use crate::accelerate::{Arith, Units};
+use crate::displace::setup::MOST_LINES;
 
 /// An option's words, each the name of a value of a library type.
 macro_rules! choice {
@@ -149,6 +150,9 @@ impl FromStr for Size {
     }
 }
 
+/// The longest cache line in bytes: what maps are aligned to.
+const LONGEST_LINE: u32 = 64;
+
 /// A cache as SIZE,WAYS,LINE.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct CacheSize(pub Geometry);
@@ -172,6 +176,12 @@ impl FromStr for CacheSize {
         };
         let geometry = Geometry { bytes, ways, line_bytes };
         match geometry.lines() {
+            Ok(_) if line_bytes > LONGEST_LINE => {
+                Err(format!("a cache line may have at most {LONGEST_LINE} bytes: {}", form()))
+            }
+            Ok(lines) if lines as usize > MOST_LINES => {
+                Err(format!("the cache would have {lines} lines, and {MOST_LINES} is the most: {}", form()))
+            }
             Ok(_) => Ok(Self(geometry)),
             Err(error) => Err(format!("{error}: {}", form())),
         }

@@ -9,6 +9,7 @@ use lucerna_driver::NumberFormat;
 use lucerna_driver::displace::{Algorithm, Coherent, LevelsDown, Policies, Reach, Wrap};
 
 use super::choices::{ArithChoice, CacheSize, Size, Switch, TimingChoice, choice};
+use super::unused::{self, Asked};
 use crate::displace::Options;
 use crate::displace::setup::Setup;
 use crate::displace::view::View;
@@ -110,21 +111,28 @@ pub struct DisplaceDeviceArgs {
     /// Cycle by cycle, or fast-forward; bits and counters are the same.
     #[arg(long, default_value = "fast")]
     pub timing: TimingChoice,
-    /// Height cache of each unit: SIZE,WAYS,LINE.
+    /// Height cache of each unit: SIZE,WAYS,LINE: up to 16 ways, lines of 4 to 64 bytes, up to 8192 lines.
     #[arg(long, default_value = "16K,4,32")]
     pub cache: CacheSize,
-    /// Texture and normal cache of each unit: SIZE,WAYS,LINE.
+    /// Texture and normal cache of each unit: SIZE,WAYS,LINE, within the same limits.
     #[arg(long, default_value = "16K,4,32")]
     pub texture_cache: CacheSize,
-    /// Instances of the unit that share the memory port.
+    /// Instances of the unit that share the memory port, 1 to 4.
     #[arg(long, default_value = "1", value_parser = clap::value_parser!(u32).range(1..=4))]
     pub units: u32,
 }
 
 impl DisplaceDeviceArgs {
     /// The device that these words mean, with the paper's policies.
-    pub fn setup(&self) -> Setup {
-        Setup {
+    ///
+    /// # Errors
+    /// A format that the chosen arithmetic does not have.
+    pub fn setup(&self) -> Result<Setup, String> {
+        if (self.format, self.arith) == (NumberChoice::F64, ArithChoice::Soft) {
+            return Err("there is no soft-float f64: leave out --arith soft, or choose --format f24 or f32"
+                .to_owned());
+        }
+        Ok(Setup {
             format: self.format.into(),
             arith: self.arith.into(),
             timing: self.timing.into(),
@@ -135,7 +143,7 @@ impl DisplaceDeviceArgs {
                 ..Sizes::default()
             },
             ..Setup::default()
-        }
+        })
     }
 }
 
@@ -146,28 +154,33 @@ pub struct DisplaceArgs {
     /// bricks, maze, craters, pebbles, ridges, noise.
     #[arg(long, default_value = "pebbles")]
     pub map: String,
-    /// Depth of the displacement in texture units; by the map's name when not given.
+    /// Depth of the displacement in texture units, 0.0001 to 10. When not given: 0.1, but by a preset for a map or file named
+    /// (NAME.png or NAME_height.png) rocks, stones, four, saint, wall, bump, dent, bricks, ridges, noise or maze.
     #[arg(long, allow_negative_numbers = true, value_parser = within(1e-4, 10.0))]
     pub scale: Option<f64>,
-    /// How often the map lies along each side of the surface; by the map's name when not given.
+    /// How often the map lies along each side of the surface, 0.01 to 1024. When not given: 1, but by a preset for rocks, bump
+    /// and dent (4), bricks and waves (2).
     #[arg(long, allow_negative_numbers = true, value_parser = within(0.01, 1024.0))]
     pub repeat: Option<f64>,
-    /// front, oblique, grazing, or YAW,PITCH or YAW,PITCH,X,Y,Z in degrees and units of the 200 by 200 grid.
+    /// front, oblique, grazing, or YAW,PITCH[,X,Y,Z]: degrees (yaw 0 looks along +z, 90 along +x; negative pitch is downwards)
+    /// and the eye, in units of the 200 by 200 grid around the origin, Y over 0, each up to 1000000. Without an eye it looks at
+    /// the grid's middle from a distance of 215, and pitch is -90 to below 0.
     #[arg(long, default_value = "oblique", allow_hyphen_values = true)]
     pub view: ViewChoice,
     /// How rays go up and down the pyramid.
     #[arg(long, default_value = "mix")]
     pub algorithm: AlgorithmChoice,
-    /// Levels down at once before the first crossing; by the algorithm when not given.
+    /// Levels down at once before the first crossing, 1 to 4; by the algorithm when not given.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub levels_down: Option<u32>,
-    /// Find the start level on a grid 2^N times finer (P19).
+    /// Find the start level on a grid 2^N times finer, 0 to 3 (P19); for a, mix, mix-gpu and fold.
     #[arg(long, default_value = "0", value_parser = clap::value_parser!(u32).range(0..=3))]
     pub start_grid: u32,
-    /// Which reading of (c2).
+    /// Which reading of (c2); for c2 and mix-gpu.
     #[arg(long, default_value = "toggle")]
     pub coherent: CoherentChoice,
-    /// Nodes within which a ray must come down for (c1) to stay on its level; by the algorithm when not given (P4, P23).
+    /// Nodes within which a ray must come down for (c1) to stay on its level, 1 to 3; for c1, mix and fold, and by them when
+    /// not given (P4, P23).
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=3))]
     pub reach: Option<u32>,
     /// Whether a crossing looks at a sibling's height at once; by the algorithm when not given (P22).
@@ -176,7 +189,7 @@ pub struct DisplaceArgs {
     /// What lies beyond the map's edges.
     #[arg(long, default_value = "repeat")]
     pub wrap: WrapChoice,
-    /// Most steps of a ray.
+    /// Most steps of a ray, 1 to 65535.
     #[arg(long, default_value = "4096", value_parser = clap::value_parser!(u32).range(1..=65535))]
     pub watchdog: u32,
     /// Who makes the rays.
@@ -185,7 +198,7 @@ pub struct DisplaceArgs {
     /// The device.
     #[command(flatten)]
     pub device: DisplaceDeviceArgs,
-    /// Pixels, WIDTHxHEIGHT.
+    /// Pixels, WIDTHxHEIGHT, each 1 to 4096.
     #[arg(long, default_value = "1024x768")]
     pub size: Size,
     /// Directory of the results; out/displace-MAP when not given.
@@ -195,7 +208,10 @@ pub struct DisplaceArgs {
 
 impl DisplaceArgs {
     /// The options that these words mean.
-    pub fn options(self) -> Options {
+    ///
+    /// # Errors
+    /// As [`DisplaceDeviceArgs::setup`].
+    pub fn options(self) -> Result<Options, String> {
         let algorithm = Algorithm::from(self.algorithm);
         let mut policies: Policies = algorithm.policies();
         if let Some(levels) = self.levels_down.and_then(levels_down) {
@@ -213,7 +229,9 @@ impl DisplaceArgs {
         let stem = std::path::Path::new(&self.map).file_stem().map_or("map".into(), |stem| stem.to_owned());
         let mut folder = std::ffi::OsString::from("displace-");
         folder.push(stem);
-        Options {
+        let asked = Asked { levels_down: self.levels_down, reach: self.reach };
+        Ok(Options {
+            notes: unused::notes(algorithm, asked, &policies),
             map: self.map,
             scale: self.scale,
             repeat: self.repeat,
@@ -221,9 +239,9 @@ impl DisplaceArgs {
             algorithm: algorithm.name().to_owned(),
             size: (self.size.width, self.size.height),
             source: self.source.into(),
-            setup: Setup { policies, watchdog: self.watchdog, ..self.device.setup() },
+            setup: Setup { policies, watchdog: self.watchdog, ..self.device.setup()? },
             out: self.out.unwrap_or_else(|| PathBuf::from("out").join(folder)),
-        }
+        })
     }
 }
 

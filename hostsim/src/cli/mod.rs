@@ -2,6 +2,7 @@
 
 pub mod choices;
 pub mod displace;
+mod unused;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -83,7 +84,7 @@ pub struct ReplayArgs {
 /// What to render, and on what device.
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// A built-in scene (cornell-balls, cornell-teapot; with --mesh: sibenik, conference), a TOML file, or an OBJ file.
+    /// A built-in scene (cornell-balls, cornell-teapot, relief-room; with --mesh: sibenik, conference, kitchen), a TOML file, or an OBJ file.
     #[arg(default_value = "cornell-balls")]
     pub scene: String,
     /// The OBJ file of a scene that leaves its mesh to you.

@@ -3,6 +3,7 @@
 
 use std::time::{Duration, Instant};
 
+use indicatif::ProgressBar;
 use lucerna_driver::NumberFormat;
 use lucerna_driver::displace::{Policies, RayResult, RayStatus, Wrap};
 use rayon::prelude::*;
@@ -23,6 +24,9 @@ pub enum Finding {
     /// Another texel.
     Other,
 }
+
+/// Rays between two looks at the progress, so that it costs the timed traversal nothing.
+const LOOK: usize = 4096;
 
 /// What the oracles say of a picture.
 #[derive(Clone, Debug)]
@@ -53,6 +57,22 @@ impl Verdict {
         policies: &Policies,
         results: &[RayResult],
     ) -> Self {
+        Self::shown(workload, format, policies, results, &ProgressBar::hidden())
+    }
+
+    /// The same; `bar` shows how far it is.
+    pub fn shown(
+        workload: &Workload,
+        format: NumberFormat,
+        policies: &Policies,
+        results: &[RayResult],
+        bar: &ProgressBar,
+    ) -> Self {
+        let phase = |name: &'static str| {
+            bar.set_position(0);
+            bar.set_message(name);
+        };
+        phase("exact march");
         let repeat = policies.wrap == Wrap::Repeat;
         let (log2, heights) = (workload.map.log2(), workload.map.heights());
         let columns = Columns::new(log2, heights, repeat);
@@ -66,6 +86,7 @@ impl Verdict {
             .par_iter()
             .zip(&traced)
             .map(|(result, ray)| ray.map_or(Finding::Untraced, |ray| finding(&columns, result, ray)))
+            .inspect(|_| bar.inc(1))
             .collect();
         let mismatch_f64 = exact_texels(workload, &columns)
             .into_par_iter()
@@ -78,13 +99,17 @@ impl Verdict {
         let pyramid = Pyramid::new(log2, heights, repeat);
         let rules = rules(policies);
         let (mut oracle_steps, mut step_differences) = (0, 0);
+        phase("f64 steps");
         let started = Instant::now();
-        for (result, ray) in results.iter().zip(&traced) {
-            if let Some((entry, direction)) = ray {
-                let steps = pyramid.walk(&rules, *entry, *direction).steps;
-                oracle_steps += u64::from(steps);
-                step_differences += u64::from(steps != u32::from(result.steps));
+        for (results, rays) in results.chunks(LOOK).zip(traced.chunks(LOOK)) {
+            for (result, ray) in results.iter().zip(rays) {
+                if let Some((entry, direction)) = ray {
+                    let steps = pyramid.walk(&rules, *entry, *direction).steps;
+                    oracle_steps += u64::from(steps);
+                    step_differences += u64::from(steps != u32::from(result.steps));
+                }
             }
+            bar.inc(results.len() as u64);
         }
         let oracle_time = started.elapsed();
         let count = |finding: Finding| findings.iter().filter(|found| **found == finding).count() as u64;

@@ -30,6 +30,15 @@ pub enum MapError {
         /// Why.
         source: std::io::Error,
     },
+    /// Neither a file nor built in.
+    #[error(
+        "{name:?} is neither a file nor a built-in height map; give a PNG file or one of the built-in maps: {}",
+        super::procedural::names().join(", ")
+    )]
+    Unknown {
+        /// What was asked for.
+        name: String,
+    },
     /// It is not a picture that can be read.
     #[error(
         "the height map {path} is no PNG file that can be read: {why}; save it as an 8- or 16-bit grey PNG"

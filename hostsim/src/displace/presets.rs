@@ -43,8 +43,13 @@ const BUILT_IN: [(&str, Preset); 5] = [
 impl Preset {
     /// The preset of a name; any other name has the common one.
     pub fn of(name: &str) -> Self {
-        let all = PAPER.iter().chain(&BUILT_IN);
-        all.into_iter().find(|(preset, _)| *preset == name).map_or(COMMON, |(_, preset)| *preset)
+        Self::named(name).unwrap_or(COMMON)
+    }
+
+    /// The preset of a name that has one of its own.
+    pub fn named(name: &str) -> Option<Self> {
+        let mut all = PAPER.iter().chain(&BUILT_IN);
+        all.find(|(preset, _)| *preset == name).map(|(_, preset)| *preset)
     }
 
     /// The map at the size it was used at.

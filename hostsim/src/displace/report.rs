@@ -1,5 +1,8 @@
 //! What a displaced picture came to; in: outcome and verdict, out: JSON and a table; cost: none.
 
+use std::collections::BTreeMap;
+
+use lucerna_driver::displace::Counter;
 use serde::Serialize;
 
 use super::judge::Verdict;
@@ -90,6 +93,8 @@ pub struct Report {
     pub address_stalls: u64,
     pub read_stalls: u64,
     pub height_forwards: u64,
+    /// Every counter of the device by its register's name.
+    pub counters: BTreeMap<&'static str, u64>,
     pub results_fnv1a64: String,
     pub host_seconds: HostSeconds,
     pub steps_per_second: f64,
@@ -236,6 +241,7 @@ impl Report {
             address_stalls: counters.address_stalls,
             read_stalls: counters.read_stalls,
             height_forwards: counters.height_forwards,
+            counters: Counter::ALL.map(|counter| (counter.name(), counters.get(counter))).into(),
             results_fnv1a64: format!("{:016x}", fnv1a64(outcome.words())),
             host_seconds: HostSeconds {
                 device: seconds,

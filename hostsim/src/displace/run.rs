@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use indicatif::ProgressBar;
 
 use super::judge::Verdict;
-use super::map::{HeightMap, MapError};
+use super::map::{HeightMap, LONGEST, MapError};
 use super::picture as pictures;
 use super::presets::Preset;
 use super::procedural;
@@ -15,6 +15,7 @@ use super::session::{self, RunError};
 use super::setup::Setup;
 use super::view::View;
 use super::workload::{Source, Workload};
+use crate::cli::announce;
 use crate::picture::{self, PictureError};
 
 /// What to draw, on what, to where.
@@ -36,6 +37,8 @@ pub struct Options {
     pub source: Source,
     /// The device.
     pub setup: Setup,
+    /// What the user should know of these choices.
+    pub notes: Vec<String>,
     /// Directory of the results, made when it is not there.
     pub out: PathBuf,
 }
@@ -59,6 +62,20 @@ pub enum DisplaceError {
         path: PathBuf,
         /// Why.
         source: std::io::Error,
+    },
+    /// No folder.
+    #[error("the folder of the maps, {folder}, cannot be read: {source}; name one that is there with --maps")]
+    NoFolder {
+        /// Which.
+        folder: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file where a folder should be.
+    #[error("{folder} is a file: --maps takes the folder that holds the maps")]
+    NotAFolder {
+        /// Which.
+        folder: PathBuf,
     },
     /// A folder without maps.
     #[error("there is no map in {folder}: it should hold {} (any of them)", .wanted.join(", "))]
@@ -85,10 +102,30 @@ impl DisplaceError {
 pub fn load(map: &str) -> Result<(HeightMap, Preset), MapError> {
     let map = match procedural::map(map) {
         Some(map) => map,
+        None if Path::new(map).extension().is_none() && !Path::new(map).exists() => {
+            return Err(MapError::Unknown { name: map.to_owned() });
+        }
         None => HeightMap::load(Path::new(map))?,
     };
     let preset = Preset::of(map.name());
     Ok((preset.apply(map), preset))
+}
+
+/// That a file's name brought settings that the user did not ask for.
+fn preset_note(options: &Options, name: &str) -> Option<String> {
+    let preset = Preset::named(name).filter(|_| procedural::map(&options.map).is_none())?;
+    let mut settings = Vec::new();
+    if options.scale.is_none() {
+        settings.push(format!("depth {} (--scale)", preset.scale));
+    }
+    if options.repeat.is_none() {
+        settings.push(format!("repeat {} (--repeat)", preset.repeat));
+    }
+    if preset.longest < LONGEST {
+        settings.push(format!("at most {} texels a side", preset.longest));
+    }
+    let settings = settings.join(", ");
+    (!settings.is_empty()).then(|| format!("the file's name is that of the preset {name}: {settings}"))
 }
 
 /// Draws, writes `picture.png`, `steps.png`, `difference.png` and `report.json`, and returns the report.
@@ -99,7 +136,9 @@ pub fn displace(options: &Options, bar: &ProgressBar) -> Result<Report, Displace
     let (map, preset) = load(&options.map)?;
     let out = &options.out;
     std::fs::create_dir_all(out).map_err(DisplaceError::write(out))?;
-    let notes = map.notes().to_vec();
+    let mut notes = map.notes().to_vec();
+    notes.extend(preset_note(options, map.name()));
+    notes.extend(options.notes.iter().cloned());
     for note in &notes {
         bar.suspend(|| eprintln!("note: {note}"));
     }
@@ -109,12 +148,16 @@ pub fn displace(options: &Options, bar: &ProgressBar) -> Result<Report, Displace
     };
     bar.set_message("rays");
     let workload = Workload::new(map, surface, options.view.1, options.size, options.source);
+    if workload.results() == 0 {
+        return Err(RunError::NoRays.into());
+    }
     bar.set_length(workload.results() as u64);
-    bar.set_message("device");
+    announce(bar, "device");
     let outcome = session::run(&options.setup, &workload, bar)?;
-    bar.set_message("exact march");
+    announce(bar, "exact march");
     let (setup, results) = (&options.setup, &outcome.results);
-    let verdict = Verdict::new(&workload, setup.format, &setup.policies, results);
+    let verdict = Verdict::shown(&workload, setup.format, &setup.policies, results, bar);
+    bar.set_message("pictures");
     picture::save(&pictures::shaded(&workload, results), &out.join("picture.png"))?;
     picture::save(&pictures::heat(&workload, results), &out.join("steps.png"))?;
     let difference = pictures::difference(&workload, results, &verdict.findings);

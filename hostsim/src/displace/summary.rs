@@ -6,6 +6,7 @@ use comfy_table::{Table, presets};
 
 use super::report::Report;
 use super::usage::{CacheReport, Occupancy};
+use super::workload::Source;
 
 fn percent(share: f64) -> String {
     format!("{:.2} %", share * 100.0)
@@ -33,6 +34,12 @@ impl fmt::Display for Report {
         table.load_preset(presets::NOTHING);
         let mut row = |name: &str, value: String| _ = table.add_row([name, &value]);
         row("pixels, of them on the surface", format!("{}, {}", self.pixels, self.rays));
+        if self.missed + self.grazing > 0 {
+            row(
+                "rays that hit, missed (beside map or surface), do not come down",
+                format!("{}, {}, {}", self.hits, self.missed, self.grazing),
+            );
+        }
         row(
             "steps a pixel (f64 traversal)",
             format!("{:.2} ({:.2})", self.steps_per_pixel, self.oracle_steps_per_pixel),
@@ -74,15 +81,22 @@ impl fmt::Display for Report {
                 percent(port)
             ),
         );
+        // These figures are of pixels on the surface only.
+        let beside = if self.source == Source::Raster.name() && self.pixels > self.rays {
+            "; pixels beside the surface take the view unit's time too"
+        } else {
+            ""
+        };
         row(
             "Mpixels/s at 84 MHz, at 500 MHz",
             format!(
-                "{:.2}, {:.2}: limited by {}, {} busy, {} waiting for memory",
+                "{:.2}, {:.2}: limited by {}, {} busy, {} waiting for memory{}",
                 self.mpixels_per_s_at_84mhz,
                 self.mpixels_per_s_at_500mhz,
                 self.limited_by.unit,
                 percent(self.limited_by.busy),
-                percent(self.limited_by.waiting)
+                percent(self.limited_by.waiting),
+                beside
             ),
         );
         row(

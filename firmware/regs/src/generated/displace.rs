@@ -700,8 +700,8 @@ pub enum ErrorCode {
     BadMap = 4,
     /// A raster has no pixel.
     BadRaster = 5,
-    /// A listed ray does not come down on the surface (P18), and RAY_FAULTS is STOP; FAULT_ADDRESS is its
-    /// result record.
+    /// A listed ray does not come down on the surface (P18), or enters it 2^24 texels from the origin or
+    /// further, and RAY_FAULTS is STOP; FAULT_ADDRESS is its result record.
     GrazingRay = 6,
     /// A ray took WATCHDOG steps (P11), and RAY_FAULTS is STOP; FAULT_ADDRESS is its result record.
     Watchdog = 7,

@@ -107,7 +107,8 @@ pub enum Counter {
     Hits = 1,
     /// Pixels beside the surface, and rays which left a map without wrap.
     Missed = 2,
-    /// Listed rays which do not come down on the surface (P18).
+    /// Rays of a list which do not come down on the surface (P18), and rays which enter it 2^24 texels from
+    /// the origin or further.
     Grazing = 3,
     /// Rays which the watchdog stopped (P11).
     Watchdogs = 4,
@@ -136,7 +137,7 @@ pub enum Counter {
     TraverseBusy = 15,
     /// Turns of a slot lost waiting for a fill of the height cache (P17).
     TraverseWaits = 16,
-    /// Turns of a slot whose finished ray was held by a full FIFO #1.
+    /// Turns of a slot whose ray has ended: held by a full FIFO #1, or refused.
     TraverseStalls = 17,
     /// Turns of an empty slot.
     TraverseBubbles = 18,
@@ -144,13 +145,14 @@ pub enum Counter {
     AddressBusy = 19,
     /// Cycles in which the address calculation had a ray and the read unit did not take it.
     AddressStalls = 20,
-    /// Cycles in which the read unit used the texture cache.
+    /// Cycles in which the read unit used the texture cache, or a line on its way in.
     ReadBusy = 21,
-    /// Cycles in which the read unit waited for a fill of the texture cache.
+    /// Cycles in which the read unit waited, for a fill of the texture cache or for the colour calculation.
     ReadStalls = 22,
     /// Cycles in which the colour calculation took a ray in or worked on it.
     ColourBusy = 23,
-    /// First tries of the height cache, one a step; tries again after a miss are not counted.
+    /// First tries of the height cache, one a step but for nodes beyond the border; tries again after a miss
+    /// are not counted.
     HeightAccesses = 24,
     /// First tries which found their line.
     HeightHits = 25,
@@ -168,9 +170,9 @@ pub enum Counter {
     TextureMisses = 31,
     /// Lines filled into the unified cache.
     TextureFills = 32,
-    /// Bytes through the memory port, line fills of both caches.
+    /// Bytes asked for at the memory port: line fills of both caches.
     PortBytes = 33,
-    /// Cycles in which the memory port transferred.
+    /// Cycles in which the memory port transfers them.
     PortBusy = 34,
     /// Bytes of result records written.
     ResultBytes = 35,

@@ -34,6 +34,15 @@ pub struct Cell {
 /// What a printed figure stands for beyond itself (P20).
 const TRUNCATED: f64 = 0.1;
 
+/// A difference with no reason of its own; [`LEGEND`] says what is known of it.
+const UNEXPLAINED: &str = "*";
+
+/// What the tables' columns and marks mean.
+pub const LEGEND: &str = "published: as the paper prints it, truncated (P20), so an error of 0 is a figure of ours inside \
+    [published, published + 0.1), and any other is counted from the nearer end. study: an independent double-precision study of \
+    the same views. f64: our oracle's traversal of the same rays in double precision. *: the paper's camera and code are known \
+    only in part.";
+
 /// Ours less the nearest number in `printed..printed + 0.1`.
 pub fn error(printed: f64, ours: f64) -> f64 {
     if ours < printed { ours - printed } else { (ours - (printed + TRUNCATED)).max(0.0) }
@@ -88,15 +97,15 @@ impl Cell {
             return if beyond { "beyond the paper" } else { "not printed, or lost in print" }.to_owned();
         };
         if error == 0.0 {
-            return "the same: print is truncated (P20)".to_owned();
+            return "the same".to_owned();
         }
         let oddity = match (self.map.as_str(), self.row.as_str()) {
-            ("rocks", "[12]") if self.view == "oblique" => "19.0 or 19.6 in print",
+            ("rocks", "[12]") if (self.table, self.view) == ("Table 4", "oblique") => "19.0 or 19.6 in print",
             ("wall", "(b)") => "print fits n = 4: see that row (P19)",
             ("bump" | "dent", "(a)") => "print fits a finer grid: see that row (P19)",
             (_, "(c2)") if self.view != "grazing" => "the rule is not printed: see its readings (P5)",
             _ if self.view == "grazing" => "the view is a fit, not published",
-            _ => "camera and code are known in part",
+            _ => UNEXPLAINED,
         };
         oddity.to_owned()
     }
@@ -135,6 +144,8 @@ mod tests {
         assert!((error(9.5, 9.65) - 0.05).abs() < 1e-9);
         let lost = Cell::new("Table 4", ("four", "a+b+c1", "grazing"), f64::NAN, None, (15.1, None));
         assert_eq!((lost.published, lost.error), (None, None));
+        let rocks = |table| Cell::new(table, ("rocks", "[12]", "oblique"), 19.6, None, (19.2, None)).reason;
+        assert!(rocks("Table 4").contains("19.0") && rocks("Table 2") == UNEXPLAINED);
         let wall = Cell::new("Table 4", ("wall", "(b)", "front"), 4.1, None, (5.6, None));
         assert!(wall.reason.contains("P19") && wall.error_percent.is_some_and(|error| error > 30.0));
     }

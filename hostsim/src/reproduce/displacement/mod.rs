@@ -2,6 +2,7 @@
 //! cost: some ten runs of the device for each map and view.
 
 mod cell;
+mod conclusion;
 mod counts;
 mod published;
 mod throughput;
@@ -19,7 +20,7 @@ use crate::displace::map::HeightMap;
 use crate::displace::session::RunError;
 use crate::displace::setup::Setup;
 use crate::displace::{DisplaceError, load};
-pub use cell::Cell;
+pub use cell::{Cell, LEGEND};
 pub use counts::Count;
 use counts::{Done, Task};
 use published::{PAPER, VIEWS};
@@ -66,6 +67,11 @@ pub fn run(
     out: &Path,
     bar: &ProgressBar,
 ) -> Result<Reproduction, DisplaceError> {
+    match std::fs::metadata(folder) {
+        Err(source) => return Err(DisplaceError::NoFolder { folder: folder.to_owned(), source }),
+        Ok(found) if !found.is_dir() => return Err(DisplaceError::NotAFolder { folder: folder.to_owned() }),
+        Ok(_) => {}
+    }
     let file = |map: &str| format!("{map}_height.png");
     let (there, missing): (Vec<_>, Vec<_>) =
         PAPER.iter().map(|paper| file(paper.map)).partition(|file| folder.join(file).exists());
@@ -106,7 +112,7 @@ pub fn run(
         cells,
         counts,
         table_5: TABLE_5,
-        conclusion: throughput::conclusion(&throughput),
+        conclusion: conclusion::conclusion(&throughput),
         throughput,
     };
     let path = out.join("displacement.json");
@@ -164,7 +170,7 @@ impl fmt::Display for Reproduction {
                 writeln!(f, "\n{cells}")?;
             }
         }
-        writeln!(f, "\n{}", self.table_5)?;
+        writeln!(f, "{LEGEND}\n\n{}", self.table_5)?;
         let mut speeds = table([
             "Tables 6, 7",
             "repeat",

@@ -1,4 +1,4 @@
-//! Tables 1, 6 and 7: how fast, and what limits it; in: maps, out: figures with a conclusion; cost: four runs a map.
+//! Tables 1, 6 and 7: how fast, and what limits it; in: maps, out: figures; cost: four runs a map.
 
 use indicatif::ProgressBar;
 use lucerna_displace::operators::{ADDRESS, COLOUR, Operator, Schedule, Unit, VIEW_LIST};
@@ -152,68 +152,6 @@ fn row(scene: &Scene, repeat: f64, units: u32, rays: u64, counters: &Counters) -
         occupancy,
         limited_by: occupancy.limit(counters, units),
     }
-}
-
-/// What the figures say about the paper's.
-pub fn conclusion(rows: &[Throughput]) -> String {
-    let slowest =
-        resources().iter().filter_map(|unit| unit.mpixels_per_s_at_84mhz).fold(f64::INFINITY, f64::min);
-    let mut lines = vec![format!(
-        "By Table 1's operators the slowest semi-pipelined unit could take {slowest:.1} Mpixels/s at 84 MHz, and four of them \
-         {:.1}.",
-        4.0 * slowest
-    )];
-    for one in rows.iter().filter(|row| row.units == 1) {
-        let four = rows.iter().find(|row| (row.units, &row.map, row.repeat) == (4, &one.map, one.repeat));
-        let Some(four) = four else { continue };
-        lines.push(format!(
-            "{} at repeat {}: 1 unit does {:.2} Mpixels/s at 84 MHz, limited by {}; 4 units do {:.2}, limited by {}. The paper has \
-             {:.1}, {:.0} % of that, with {:.2} MB a frame; ours have {:.2}.",
-            one.map,
-            one.repeat,
-            one.mpixels_per_s_at_84mhz,
-            one.limit(),
-            four.mpixels_per_s_at_84mhz,
-            four.limit(),
-            four.published_mpixels_per_s,
-            100.0 * ratio(four.published_mpixels_per_s, four.mpixels_per_s_at_84mhz),
-            four.published_mb_per_frame,
-            four.port_mb_per_frame,
-        ));
-    }
-    for row in rows.iter().filter(|row| row.units == 4 && row.repeat != 1.0) {
-        let share = ratio(row.published_mpixels_per_s, row.mpixels_per_s_at_84mhz);
-        if (0.85..1.15).contains(&share) {
-            lines.push(format!(
-                "{} at repeat {} comes near the print, but with {:.0} times its memory traffic and a hit rate of {:.1} %: probably \
-                 by chance.",
-                row.map,
-                row.repeat,
-                ratio(row.port_mb_per_frame, row.published_mb_per_frame),
-                row.hit_rate_percent,
-            ));
-        }
-    }
-    let at_1 = || rows.iter().filter(|row| row.units == 4 && row.repeat == 1.0);
-    let frames = || at_1().map(|row| row.frames_per_s_at_84mhz);
-    let (least, most) = (frames().fold(f64::INFINITY, f64::min), frames().fold(0.0, f64::max));
-    if most > 0.0 {
-        lines.push(format!(
-            "With the maps once on the surface, where hit rates are the paper's 99 %, four units would give {least:.0} to {most:.0} \
-             frames a second, by the map; the paper has 21 to 22 on every map, with its shading units 92 to 94 % busy."
-        ));
-        if at_1().all(|row| row.mpixels_per_s_at_84mhz > 1.5 * row.published_mpixels_per_s) {
-            lines.push(
-                "A rate that does not follow the map, and that four units could exceed by half and more, is set neither by \
-                 traversal nor by another unit here, but by what feeds them: the ray tracer with its shading units."
-                    .to_owned(),
-            );
-        }
-        lines.push(format!(
-            "The paper's {TABLE_7} at 500 MHz is its 7.5 at 84 MHz times 500/84: scaled, not measured."
-        ));
-    }
-    lines.join("\n")
 }
 
 impl Throughput {
