@@ -1,6 +1,6 @@
 //! Random displacement jobs at register level; in: a seed, out: memory and registers, and what START may say of them; cost: small.
 //!
-//! [`faults`] is written from the register map's descriptions alone: what is wrong with a job, each with its code and address.
+//! `faults` is written from the register map's descriptions alone: what is wrong with a job, each with its code and address.
 
 use lucerna_driver::NumberFormat;
 use lucerna_driver::records::encode;

@@ -162,7 +162,7 @@ pub struct DisplaceArgs {
     /// and dent (4), bricks and waves (2).
     #[arg(long, allow_negative_numbers = true, value_parser = within(0.01, 1024.0))]
     pub repeat: Option<f64>,
-    /// front, oblique, grazing, or YAW,PITCH[,X,Y,Z]: degrees (yaw 0 looks along +z, 90 along +x; negative pitch is downwards)
+    /// front, oblique, grazing, or YAW,PITCH or YAW,PITCH,X,Y,Z: degrees (yaw 0 looks along +z, 90 along +x; negative pitch is downwards)
     /// and the eye, in units of the 200 by 200 grid around the origin, Y over 0, each up to 1000000. Without an eye it looks at
     /// the grid's middle from a distance of 215, and pitch is -90 to below 0.
     #[arg(long, default_value = "oblique", allow_hyphen_values = true)]
