@@ -30,6 +30,31 @@ pub trait Target {
     fn interrupt(&self) -> bool;
 }
 
+/// A device that is lent stays where it is: one too large to move need not be.
+impl<T: Target + ?Sized> Target for &mut T {
+    fn read(&mut self, offset: u32) -> Result<u32, TargetError> {
+        T::read(self, offset)
+    }
+    fn write(&mut self, offset: u32, value: u32) -> Result<(), TargetError> {
+        T::write(self, offset, value)
+    }
+    fn load(&self, address: u32, words: &mut [u32]) -> Result<(), TargetError> {
+        T::load(self, address, words)
+    }
+    fn store(&mut self, address: u32, words: &[u32]) -> Result<(), TargetError> {
+        T::store(self, address, words)
+    }
+    fn tick(&mut self) {
+        T::tick(self);
+    }
+    fn advance(&mut self, cycles: u64) {
+        T::advance(self, cycles);
+    }
+    fn interrupt(&self) -> bool {
+        T::interrupt(self)
+    }
+}
+
 /// Why a device does not answer an access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

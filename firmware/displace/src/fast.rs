@@ -5,6 +5,8 @@
 //! stalls when it is called again. The ring turns in every cycle; of an only instance it turns many times in one call, and with
 //! a ray in each slot the other parts are called late, when the ring has to do with them, for all cycles that they missed.
 
+use core::array;
+
 use lucerna_softfloat::Format;
 
 use crate::engine::{Event, Parts};
@@ -50,18 +52,16 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
 
     fn agenda(&self) -> Agenda {
         let now = self.outside.now;
-        let never = Shading { event: u64::MAX, seen: now, address_stalls: false, read_stalls: false };
-        let mut agenda = Agenda {
-            shading: [never; MAX_UNITS as usize],
+        let idle = Shading { event: u64::MAX, seen: now, address_stalls: false, read_stalls: false };
+        let instance = |unit: usize| self.instances.get(unit);
+        Agenda {
+            shading: array::from_fn(|unit| {
+                instance(unit).map_or(idle, |instance| Shading::of(instance, now))
+            }),
             switching: Switching::of(self.instances, self.source.is_dry(), now),
-            viewed: [u64::MAX; MAX_UNITS as usize],
-            arrival: self.outside.port.next_arrival().unwrap_or(u64::MAX),
-        };
-        for (unit, instance) in self.instances.iter().enumerate() {
-            agenda.shading[unit] = Shading::of(instance, now);
-            agenda.viewed[unit] = instance.viewed();
+            viewed: array::from_fn(|unit| instance(unit).map_or(u64::MAX, Instance::viewed)),
+            arrival: self.outside.arrival(),
         }
-        agenda
     }
 
     /// Cycles before `end` in which the ring of an only instance turns and nothing else happens; when the ring is full, nothing
@@ -85,7 +85,7 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
             if let Some(line) = instance.turns(until, outside) {
                 instance.ask(line, outside);
                 outside.now += 1;
-                agenda.arrival = outside.port.next_arrival().unwrap_or(u64::MAX);
+                agenda.arrival = outside.arrival();
                 until = until.min(agenda.arrival);
             }
         }
@@ -115,7 +115,7 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
                 self.shade_before(agenda, now + 1);
                 let [instance] = &mut *self.instances else { break };
                 instance.ask(line, &mut self.outside);
-                agenda.arrival = self.outside.port.next_arrival().unwrap_or(u64::MAX);
+                agenda.arrival = self.outside.arrival();
                 self.outside.now = now + 1;
             }
         }
@@ -176,7 +176,7 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
                 leave_and_enter(instance, outside, agenda);
             }
             if instance.turn(outside) {
-                agenda.arrival = outside.port.next_arrival().unwrap_or(u64::MAX);
+                agenda.arrival = outside.arrival();
             }
             if now >= agenda.viewed[unit] {
                 settle_view(instance, outside, agenda);
@@ -215,7 +215,7 @@ fn shade<F: Format, const LINES: usize>(
     let shading = &mut agenda.shading[outside.unit];
     shading.catch_up(outside.now, outside.counters);
     if instance.shade(outside) {
-        agenda.arrival = outside.port.next_arrival().unwrap_or(u64::MAX);
+        agenda.arrival = outside.arrival();
     }
     *shading = Shading::of(instance, outside.now + 1);
 }
@@ -266,5 +266,5 @@ fn fills<F: Format, const LINES: usize>(
             agenda.shading[fill.unit].event = outside.now;
         }
     }
-    agenda.arrival = outside.port.next_arrival().unwrap_or(u64::MAX);
+    agenda.arrival = outside.arrival();
 }

@@ -60,6 +60,12 @@ pub struct Outside<'a, F> {
 }
 
 impl<F: Format> Outside<'_, F> {
+    /// When the next line comes; at the end of time if none does.
+    #[inline]
+    pub(crate) fn arrival(&self) -> u64 {
+        self.port.next_arrival().unwrap_or(u64::MAX)
+    }
+
     /// Asks for a line.
     pub fn request(&mut self, cache: Cache, line: u32, bytes: u32) {
         let before = *self.port.totals();

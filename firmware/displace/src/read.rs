@@ -134,7 +134,7 @@ impl<F: Format, const LINES: usize> Read<F, LINES> {
             }
             counters.texture_hits += 1;
         }
-        *word = map.words.value(memory, *word).unwrap_or(0);
+        *word = map.words.read::<1>(memory, *word, 0).map_or(0, |words| words[0]);
         self.next = if self.next == Next::Texture { Next::Normal } else { Next::Done };
         None
     }

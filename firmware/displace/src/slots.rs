@@ -88,12 +88,6 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         self.cache.clear();
     }
 
-    /// Whether it holds no ray.
-    #[inline]
-    pub const fn is_empty(&self) -> bool {
-        self.occupied == 0
-    }
-
     /// Whether every slot holds a ray.
     #[inline]
     pub const fn is_full(&self) -> bool {

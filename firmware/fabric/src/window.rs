@@ -98,16 +98,6 @@ impl Buffer {
         memory.get_mut(first..)?.first_chunk_mut()
     }
 
-    /// One word of a buffer whose records are of one word.
-    #[inline]
-    pub fn value(&self, memory: &[u32], record: u32) -> Option<u32> {
-        if record < self.count && self.stride == 1 {
-            memory.get(self.first as usize + record as usize).copied()
-        } else {
-            None
-        }
-    }
-
     /// All records, when they are `W` words each; else none.
     #[inline]
     pub fn records<'m, const W: usize>(&self, memory: &'m [u32]) -> &'m [[u32; W]] {

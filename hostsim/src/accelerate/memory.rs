@@ -11,6 +11,11 @@ pub struct HostMemory {
     len: usize,
 }
 
+/// The words of so many bytes, if 32-bit addresses reach them.
+pub fn words(bytes: u64) -> Option<usize> {
+    u32::try_from(bytes).ok().map(|bytes| bytes.div_ceil(4) as usize)
+}
+
 impl HostMemory {
     /// Zeros.
     pub fn new(len: usize) -> Self {

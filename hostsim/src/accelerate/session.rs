@@ -16,7 +16,7 @@ use lucerna_driver::{
 use lucerna_softfloat::Format;
 
 use super::bus::{MaybeTraced, MaybeTracedDelay, TraceFile};
-use super::memory::HostMemory;
+use super::memory::{self, HostMemory};
 use super::setup::{self, OnDevice, Setup};
 use crate::grid::HashGrid;
 use crate::oracle::State;
@@ -138,7 +138,7 @@ impl OnDevice for Session<'_> {
             normal_test: setup.normal_test,
         };
         let bytes = sizes.bytes();
-        let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
+        let words = memory::words(bytes).ok_or(RunError::TooLarge(bytes))?;
         let device: PreeDevice<F, N, _> = PreeDevice::new(HostMemory::new(words));
         let model = Model::new(device).with_timing(setup.timing);
         let header = header(setup, words);

@@ -17,7 +17,7 @@ use lucerna_softfloat::Format;
 use super::picture::BACKGROUND;
 use super::setup::{self, OnDevice, Setup};
 use super::workload::{Source, TANGENT_ROWS, Workload};
-use crate::accelerate::memory::HostMemory;
+use crate::accelerate::memory::{self, HostMemory};
 
 /// Rays of a list that are in device memory at a time.
 const BATCH: usize = 1 << 20;
@@ -97,7 +97,7 @@ impl OnDevice for Session<'_> {
     fn on<F: Format, const U: usize, const L: usize>(self) -> Self::Output {
         let sizes = self.buffers();
         let bytes = sizes.bytes();
-        let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
+        let words = memory::words(bytes).ok_or(RunError::TooLarge(bytes))?;
         let device = DisplaceDevice::<F, U, L, _>::new(self.setup.sizes, HostMemory::new(words))?;
         // The caches' tags do not belong on a stack.
         let model = Box::new(Model::new(device).with_timing(self.setup.timing));

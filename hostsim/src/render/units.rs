@@ -15,7 +15,7 @@ use lucerna_softfloat::Format;
 
 use super::relief::{Relief, ReliefError, reflectance};
 use crate::accelerate::Setup;
-use crate::accelerate::memory::HostMemory;
+use crate::accelerate::memory::{self, HostMemory};
 use crate::displace::session::RunError;
 use crate::displace::setup::{self, OnDevice};
 use crate::scene::{Displaced, Scene, Vec3};
@@ -141,7 +141,7 @@ impl OnDevice for Build<'_> {
             results: MOST_RAYS,
         };
         let bytes = sizes.bytes();
-        let words = u32::try_from(bytes).map_err(|_| RunError::TooLarge(bytes))?.div_ceil(4) as usize;
+        let words = memory::words(bytes).ok_or(RunError::TooLarge(bytes))?;
         let target = DisplaceDevice::<F, U, L, _>::new(device.sizes, HostMemory::new(words))?;
         // The caches' tags do not belong on a stack.
         let model = Box::new(Model::new(target).with_timing(device.timing));

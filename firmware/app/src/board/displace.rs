@@ -1,7 +1,7 @@
 //! The displacement model in the image. In: room for the device. Out: the report on stdout, and a status. Cost: 64 KiB of RAM for
 //! device memory, 4 KiB for the map, 14 KiB for the unit's state, and the job in both timings.
 
-use lucerna_bus::{Model, Target, TargetError};
+use lucerna_bus::Model;
 use lucerna_device::DisplaceDevice;
 use lucerna_displace::engine::{SizeError, Sizes};
 use lucerna_softfloat::Format;
@@ -29,7 +29,7 @@ pub fn main<F: Format>(room: Option<&mut Option<Device<F>>>) -> ! {
     };
     defmt::info!("{=u32} rays to go", displace::SIZES.results);
     both_timings(|timing, report| {
-        let model = Model::new(Lent(device)).with_timing(timing);
+        let model = Model::new(&mut *device).with_timing(timing);
         match displace::run(model.bus(), model.delay(), heights, report) {
             Ok(()) => model.elapsed(),
             Err(error) => {
@@ -49,31 +49,4 @@ fn make<'a, F: Format>(
     memory: &'static mut [u32],
 ) -> Result<&'a mut Device<F>, SizeError> {
     Ok(room.insert(Device::new(Sizes::default(), memory)?))
-}
-
-/// A device that stays where it is.
-struct Lent<'a, T>(&'a mut T);
-
-impl<T: Target> Target for Lent<'_, T> {
-    fn read(&mut self, offset: u32) -> Result<u32, TargetError> {
-        self.0.read(offset)
-    }
-    fn write(&mut self, offset: u32, value: u32) -> Result<(), TargetError> {
-        self.0.write(offset, value)
-    }
-    fn load(&self, address: u32, words: &mut [u32]) -> Result<(), TargetError> {
-        self.0.load(address, words)
-    }
-    fn store(&mut self, address: u32, words: &[u32]) -> Result<(), TargetError> {
-        self.0.store(address, words)
-    }
-    fn tick(&mut self) {
-        self.0.tick();
-    }
-    fn advance(&mut self, cycles: u64) {
-        self.0.advance(cycles);
-    }
-    fn interrupt(&self) -> bool {
-        self.0.interrupt()
-    }
 }

@@ -1,9 +1,8 @@
 //! A device memory with a map, rays and room for results, and the job that is about them.
-#![allow(dead_code, reason = "each test uses its own part")]
 
 use lucerna_displace::job::{Description, Fault, Job, MAP_ALIGNMENT, MapDescription, RayFaults, Source};
 use lucerna_displace::pyramid::Shape;
-use lucerna_displace::record::{RAY_WORDS, RESULT_WORDS};
+use lucerna_displace::record::RESULT_WORDS;
 use lucerna_displace::traverse::Policies;
 use lucerna_fabric::window::{Window, Windows};
 use lucerna_softfloat::Format;
@@ -59,7 +58,6 @@ pub struct Scene<F> {
     pub memory: Vec<u32>,
     pub description: Description<F>,
     pub results: usize,
-    pub rays: usize,
 }
 
 impl<F: Format> Scene<F> {
@@ -104,7 +102,7 @@ impl<F: Format> Scene<F> {
             diffuse: F::from_f32(0.75),
             background: 0x0012_3456,
         };
-        Self { memory, description, results: results as usize / 4, rays: rays.len() }
+        Self { memory, description, results: results as usize / 4 }
     }
 
     pub fn job(&self) -> Result<Job<F>, Fault> {
@@ -114,9 +112,5 @@ impl<F: Format> Scene<F> {
 
     pub fn result<'m>(&self, memory: &'m [u32], ray: usize) -> &'m [u32] {
         &memory[self.results + ray * RESULT_WORDS as usize..][..RESULT_WORDS as usize]
-    }
-
-    pub const fn ray_words() -> u32 {
-        RAY_WORDS
     }
 }
