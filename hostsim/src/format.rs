@@ -5,7 +5,9 @@
 //! 53 >= 2·17 + 2. Both are chosen for speed only, and tests hold them against the soft formats. [`HostF64`] is no device's:
 //! it tells what a job would come to if arithmetic did not matter.
 
-use lucerna_softfloat::{F24, F32, Format, FormatCode};
+use lucerna_softfloat::{F24, F32, Format, FormatCode, PlainLine};
+
+use line::Line24;
 
 /// The operations of [`Format`] on a host number in `self.0`, each result through `$finish`.
 macro_rules! host_arithmetic {
@@ -82,6 +84,7 @@ fn floor_rare(x: f64) -> i32 {
 pub struct HostF32(f32);
 
 impl Format for HostF32 {
+    type Line = PlainLine<Self>;
     const NAME: &'static str = "f32";
     const CODE: FormatCode = FormatCode::F32;
     const COSTLY: bool = false;
@@ -114,6 +117,7 @@ impl Format for HostF32 {
 pub struct HostF64(f64);
 
 impl Format for HostF64 {
+    type Line = PlainLine<Self>;
     const NAME: &'static str = "f64";
     const CODE: FormatCode = FormatCode::F64;
     const COSTLY: bool = false;
@@ -160,10 +164,6 @@ const OVERFLOW: f64 = f64::from_bits((1023 + 64) << 52);
 /// 2^-78, F24's least subnormal.
 const QUANTUM: f64 = f64::from_bits((1023 - 78) << 52);
 
-/// A little more than the relative error of a rounding to 17 bits, 2^-17: so much that what a rounding of the product does to
-/// the sum's is in it too.
-const ROUNDING: f64 = 1.001 / (1 << 17) as f64;
-
 /// The nearest F24 value to an f64, ties to even.
 #[inline(always)]
 fn rounded(x: f64) -> HostF24 {
@@ -184,34 +184,6 @@ fn nearest(x: f64) -> f64 {
     f64::from_bits(bits.wrapping_add(to_even) >> SPARE << SPARE)
 }
 
-/// Whether this is a normal F24 number, if it is one at all.
-#[inline(always)]
-fn is_normal(x: f64) -> bool {
-    (x.abs() >= LEAST_NORMAL) & (x.abs() < OVERFLOW)
-}
-
-/// `⌊(self + factor · other) · 2^log2⌋`, and whether the roundings that this leaves out are sure not to change it.
-#[inline(always)]
-fn product_floor(summand: HostF24, factor: HostF24, other: HostF24, log2: u32) -> (i32, bool) {
-    let product = factor.0 * other.0;
-    let sum = summand.0 + product;
-    let scale = power_of_two(log2 as i32);
-    let scaled = sum * scale;
-    // More than two roundings to 17 bits, or to subnormals, can be.
-    let doubt = ((product.abs() + sum.abs()) * ROUNDING + LEAST_NORMAL) * scale;
-    let anchored = scaled + ANCHOR;
-    let beyond = scaled - (anchored - ANCHOR);
-    // So far from an integer, and so small, no rounding changes the floor.
-    let sure = (scaled.abs() <= FLOOR_LIMIT) & (beyond.abs() > doubt) & (beyond.abs() + doubt < 0.5);
-    ((anchored.to_bits() as i32).wrapping_sub(i32::from(beyond < 0.0)), sure)
-}
-
-/// Keeps what is seldom done out of the way.
-#[cold]
-fn rarely<R>(task: impl FnOnce() -> R) -> R {
-    task()
-}
-
 /// Subnormals, infinities, NaN.
 #[cold]
 fn rounded_rare(x: f64) -> HostF24 {
@@ -227,6 +199,7 @@ fn rounded_rare(x: f64) -> HostF24 {
 }
 
 impl Format for HostF24 {
+    type Line = Line24;
     const NAME: &'static str = "f24";
     const CODE: FormatCode = FormatCode::F24;
     const COSTLY: bool = false;
@@ -266,34 +239,6 @@ impl Format for HostF24 {
         floor(self.0 * power_of_two(log2 as i32))
     }
     #[inline(always)]
-    fn add_product_floor(self, factor: Self, other: Self, log2: u32) -> i32 {
-        let (floor, sure) = product_floor(self, factor, other, log2);
-        if sure { floor } else { self.add(factor.mul(other)).floor_scaled(log2) }
-    }
-    #[inline(always)]
-    fn add_product_floors(point: [Self; 2], direction: [Self; 2], t: Self, log2: [u32; 2]) -> [i32; 2] {
-        let (x, x_sure) = product_floor(point[0], direction[0], t, log2[0]);
-        let (y, y_sure) = product_floor(point[1], direction[1], t, log2[1]);
-        if x_sure & y_sure {
-            return [x, y];
-        }
-        rarely(move || [0, 1].map(|axis| point[axis].add(direction[axis].mul(t)).floor_scaled(log2[axis])))
-    }
-    #[inline(always)]
-    fn edge_distances(edge: [i32; 2], log2: [u32; 2], point: [Self; 2], direction: [Self; 2]) -> [Self; 2] {
-        let scaled = [0, 1].map(|axis| f64::from(edge[axis]) * power_of_two(-(log2[axis] as i32)));
-        let differences = [0, 1].map(|axis| nearest(scaled[axis] - point[axis].0));
-        let quotients = [0, 1].map(|axis| nearest(differences[axis] / direction[axis].0));
-        let exact = |edge: i32| edge.wrapping_add(1 << 17) as u32;
-        let ([a, b], [c, d]) = (differences.map(is_normal), quotients.map(is_normal));
-        if a & b & c & d & (exact(edge[0]) | exact(edge[1]) < 1 << 18) {
-            return quotients.map(Self);
-        }
-        rarely(move || {
-            [0, 1].map(|axis| Self::from_scaled(edge[axis], log2[axis]).sub(point[axis]).div(direction[axis]))
-        })
-    }
-    #[inline(always)]
     fn from_scaled(integer: i32, log2: u32) -> Self {
         if integer.unsigned_abs() <= 1 << 17 {
             return Self(f64::from(integer) * power_of_two(-(log2 as i32)));
@@ -304,5 +249,6 @@ impl Format for HostF24 {
     host_arithmetic!(rounded);
 }
 
+mod line;
 #[cfg(test)]
 mod tests;

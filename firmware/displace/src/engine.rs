@@ -54,7 +54,7 @@ enum State<F> {
 
 /// Up to `UNITS` instances with caches of up to `LINES` lines each.
 #[derive(Clone, Debug)]
-pub struct Displace<F, const UNITS: usize, const LINES: usize> {
+pub struct Displace<F: Format, const UNITS: usize, const LINES: usize> {
     sizes: Sizes,
     depths: Depths<F>,
     state: State<F>,
@@ -65,7 +65,7 @@ pub struct Displace<F, const UNITS: usize, const LINES: usize> {
 }
 
 /// The parts of a unit at work, apart from each other.
-pub(crate) struct Parts<'a, F, const LINES: usize> {
+pub(crate) struct Parts<'a, F: Format, const LINES: usize> {
     pub(crate) instances: &'a mut [Instance<F, LINES>],
     pub(crate) source: &'a mut Source,
     /// The instance that the switch looks at first.

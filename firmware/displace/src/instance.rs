@@ -26,7 +26,7 @@ use crate::view::View;
 
 /// One instance.
 #[derive(Clone, Debug)]
-pub struct Instance<F, const LINES: usize> {
+pub struct Instance<F: Format, const LINES: usize> {
     depth0: usize,
     depth1: usize,
     pub(crate) view: SemiPipeline<(u32, View<F>), VIEW_DEPTH>,

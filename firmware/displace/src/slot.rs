@@ -6,7 +6,7 @@ use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
 use crate::traverse::heights::Fetched;
-use crate::traverse::ray::Track;
+use crate::traverse::ray::{Ray, Track};
 use crate::traverse::walk::{Step, Walk};
 
 /// What a slot is about.
@@ -28,13 +28,13 @@ pub(crate) enum State {
 
 /// A ray in the ring, and what it is about.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slot<F> {
+pub(crate) struct Slot<F: Format> {
     pub state: State,
     /// The ray's number in the job.
     pub number: u32,
     pub start_level: u32,
-    /// Where it enters, for its hit coordinate.
-    pub entry: [F; 2],
+    /// As it came, for its hit coordinate.
+    pub ray: Ray<F>,
     pub track: Track<F>,
     pub walk: Walk<F>,
 }

@@ -60,7 +60,7 @@ struct Heights<'a, F> {
 
 /// A traverse unit with its height cache.
 #[derive(Clone, Debug)]
-pub struct Slots<F, const LINES: usize> {
+pub struct Slots<F: Format, const LINES: usize> {
     slots: [Slot<F>; STAGES],
     /// The slot in stage 1.
     entry: usize,
@@ -72,9 +72,9 @@ pub struct Slots<F, const LINES: usize> {
 impl<F: Format, const LINES: usize> Slots<F, LINES> {
     /// An empty ring.
     pub fn new(cache: Tags<LINES>) -> Self {
-        let track = Track { origin: [0; 2], offset: [F::ZERO; 2], direction: [F::ZERO; 2] };
-        let walk = Walk::NOWHERE;
-        let empty = Slot { state: State::Empty, number: 0, start_level: 0, entry: [F::ZERO; 2], track, walk };
+        let ray = Ray { entry: [F::ZERO; 2], direction: [F::ZERO; 2] };
+        let (track, walk) = (Track::nowhere(), Walk::NOWHERE);
+        let empty = Slot { state: State::Empty, number: 0, start_level: 0, ray, track, walk };
         Self { slots: [empty; STAGES], entry: 0, occupied: 0, cache }
     }
 
@@ -113,7 +113,7 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         let State::Ended(status) = slot.state else { return None };
         Some(Ended {
             number: slot.number,
-            ray: Ray { entry: slot.entry, direction: slot.track.direction },
+            ray: slot.ray,
             status,
             leaf: slot.walk.leaf,
             t: slot.walk.t,
@@ -140,7 +140,7 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
     pub fn load(&mut self, entrant: Entrant<F>, job: &Job<F>) {
         let slot = &mut self.slots[self.entry];
         slot.number = entrant.number;
-        slot.entry = entrant.ray.entry;
+        slot.ray = entrant.ray;
         slot.track = entrant.ray.track(job.terrain.field.shape().log2());
         slot.start_level = job.terrain.field.shape().root();
         if !slot.track.is_in_reach() {

@@ -1,6 +1,6 @@
 //! What a datapath asks of its numbers, so that one source serves every format: free.
 
-use crate::{F24, F32};
+use crate::{F24, F32, Line, PlainLine};
 
 /// The number formats a device can be built with, as numbered in its capability register.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -52,6 +52,8 @@ pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
     const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// Lines in a plane.
+    type Line: Line<Self>;
     /// The number with these bits; upper bits are ignored.
     fn from_bits(bits: u32) -> Self;
     /// The bits, right-aligned.
@@ -90,26 +92,6 @@ pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
     fn floor_scaled(self, log2: u32) -> i32 {
         floor(self.to_f32() * power_of_two(log2 as i32))
     }
-    /// `⌊(self + factor · other) · 2^log2⌋`, product and sum each rounded to the format, clipped as
-    /// [`floor_scaled`](Format::floor_scaled).
-    #[inline]
-    #[must_use]
-    fn add_product_floor(self, factor: Self, other: Self, log2: u32) -> i32 {
-        self.add(factor.mul(other)).floor_scaled(log2)
-    }
-    /// [`add_product_floor`](Format::add_product_floor) on both axes of a plane: `point` and `direction` are of two axes each.
-    #[inline]
-    #[must_use]
-    fn add_product_floors(point: [Self; 2], direction: [Self; 2], t: Self, log2: [u32; 2]) -> [i32; 2] {
-        [0, 1].map(|axis| point[axis].add_product_floor(direction[axis], t, log2[axis]))
-    }
-    /// `(edge · 2^-log2 − point) / direction` on both axes of a plane: [`from_scaled`](Format::from_scaled), difference and
-    /// quotient, each rounded to the format.
-    #[inline]
-    #[must_use]
-    fn edge_distances(edge: [i32; 2], log2: [u32; 2], point: [Self; 2], direction: [Self; 2]) -> [Self; 2] {
-        [0, 1].map(|axis| Self::from_scaled(edge[axis], log2[axis]).sub(point[axis]).div(direction[axis]))
-    }
     /// `integer · 2^-log2`, rounded once when `integer` is within ±2^24. `log2` is at most 31.
     #[inline]
     #[must_use]
@@ -141,6 +123,7 @@ macro_rules! soft_format {
             const CODE: FormatCode = $code;
             const ZERO: Self = <$float>::ZERO;
             const ONE: Self = <$float>::ONE;
+            type Line = PlainLine<Self>;
             #[inline]
             fn from_bits(bits: u32) -> Self {
                 <$float>::from_bits(bits)

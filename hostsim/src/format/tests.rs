@@ -1,6 +1,7 @@
 //! Are the host's numbers the soft ones, to the bit?
 
 use super::*;
+use lucerna_softfloat::Line;
 use proptest::prelude::*;
 
 /// Bits with all exponents, and the special values more often than chance has them.
@@ -22,37 +23,33 @@ fn same<H: Format, S: Format>(a: u32, b: u32) -> Result<(), TestCaseError> {
     prop_assert_eq!(H::from_f32(x).to_bits(), S::from_f32(x).to_bits());
     for log2 in [0, 1, b % 14, 31] {
         prop_assert_eq!(ha.floor_scaled(log2), sa.floor_scaled(log2), "{:08x} {}", a, log2);
-        let (host, soft) = (ha.add_product_floor(hb, ha, log2), sa.add_product_floor(sb, sa, log2));
-        prop_assert_eq!(host, soft, "{:08x} {:08x} {}", a, b, log2);
         for integer in [b as i32, b as i32 >> 8, (b & 0x3fff) as i32 - 0x2000] {
             let (host, soft) = (H::from_scaled(integer, log2), S::from_scaled(integer, log2));
             prop_assert_eq!(host.to_bits(), soft.to_bits(), "{} {}", integer, log2);
         }
     }
-    on_both_axes::<H, S>([a, b], [b, a], b)?;
-    on_both_axes::<H, S>([a, b], [b, b], a)
+    lines::<H, S>([a, b], [b, a], b)?;
+    lines::<H, S>([a, b], [b, b], a)
 }
 
 /// What crossings and landings of rays are found by.
-fn on_both_axes<H: Format, S: Format>(
-    point: [u32; 2],
-    direction: [u32; 2],
-    t: u32,
-) -> Result<(), TestCaseError> {
-    let (hp, hd, sp, sd) = (
-        point.map(H::from_bits),
-        direction.map(H::from_bits),
-        point.map(S::from_bits),
-        direction.map(S::from_bits),
-    );
+fn lines<H: Format, S: Format>(point: [u32; 2], direction: [u32; 2], t: u32) -> Result<(), TestCaseError> {
+    let from_0_to_1 = S::ZERO.le(S::from_bits(t)) && S::from_bits(t).le(S::ONE);
+    let t = if from_0_to_1 { t } else { S::from_f32((t % 256) as f32 / 255.0).to_bits() };
+    let (host_t, soft_t) = (H::from_bits(t), S::from_bits(t));
     let small = [point[1] as i32 % 5000, direction[0] as i32 % 5000];
     for (log2, edge) in [([0, 12], small), ([8, 8], [small[0]; 2]), ([11, 3], [t as i32, 1 << 17])] {
-        let host = H::add_product_floors(hp, hd, H::from_bits(t), log2);
-        let soft = S::add_product_floors(sp, sd, S::from_bits(t), log2);
-        prop_assert_eq!(host, soft, "{:08x?} {:08x?} {:08x} {:?}", point, direction, t, log2);
-        let host = H::edge_distances(edge, log2, hp, hd).map(H::to_bits);
-        let soft = S::edge_distances(edge, log2, sp, sd).map(S::to_bits);
-        prop_assert_eq!(host, soft, "{:?} {:08x?} {:08x?} {:?}", edge, point, direction, log2);
+        let host = H::Line::new(point.map(H::from_bits), direction.map(H::from_bits), log2);
+        let soft = S::Line::new(point.map(S::from_bits), direction.map(S::from_bits), log2);
+        let cells = (host.cell(host_t, 0), host.cell(host_t, 2));
+        prop_assert_eq!(cells, (soft.cell(soft_t, 0), soft.cell(soft_t, 2)), "{:08x} {:x?}", t, soft);
+        for axis in 0..2 {
+            prop_assert_eq!(host.index(axis, host_t), soft.index(axis, soft_t), "{:08x} {:x?}", t, soft);
+        }
+        for edge in [edge, cells.0, [cells.0[0] + 1, cells.0[1] - 1]] {
+            let meets = host.meets(edge).map(H::to_bits);
+            prop_assert_eq!(meets, soft.meets(edge).map(S::to_bits), "{:?} {:x?}", edge, soft);
+        }
     }
     Ok(())
 }
@@ -109,8 +106,8 @@ proptest! {
     ) {
         let texel = |axis: usize| F24::from_f32(texels[axis] as f32 / 256.0).to_bits();
         let point = [0, 1].map(|axis| texel(axis).wrapping_add(beside[axis]).wrapping_sub(1) & 0xff_ffff);
-        on_both_axes::<HostF24, F24>(point, slopes.map(|x| F24::from_f32(x).to_bits()), F24::from_f32(t).to_bits())?;
+        lines::<HostF24, F24>(point, slopes.map(|x| F24::from_f32(x).to_bits()), F24::from_f32(t).to_bits())?;
         let point = [0, 1].map(|axis| (texels[axis] as f32 / 256.0).to_bits().wrapping_add(beside[axis]).wrapping_sub(1));
-        on_both_axes::<HostF32, F32>(point, slopes.map(f32::to_bits), t.to_bits())?;
+        lines::<HostF32, F32>(point, slopes.map(f32::to_bits), t.to_bits())?;
     }
 }

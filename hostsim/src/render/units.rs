@@ -158,7 +158,7 @@ impl OnDevice for Build<'_> {
     }
 }
 
-struct OneUnit<F, const U: usize, const L: usize> {
+struct OneUnit<F: Format, const U: usize, const L: usize> {
     model: Box<Model<DisplaceDevice<F, U, L, HostMemory>>>,
     relief: Relief,
     layout: Layout,

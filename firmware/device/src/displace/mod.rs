@@ -19,7 +19,7 @@ const NOTHING: interrupts::Status = interrupts::Status::RESET;
 
 /// A displacement unit of format `F`: up to `U` instances with caches of up to `L` lines.
 #[derive(Clone, Debug)]
-pub struct DisplaceBlock<F, const U: usize, const L: usize> {
+pub struct DisplaceBlock<F: Format, const U: usize, const L: usize> {
     registers: Registers,
     unit: Displace<F, U, L>,
 }

@@ -1,7 +1,7 @@
 //! A ray in texture space (P12, P24); in: entry and direction, out: the texel at a depth, the parameter of an edge; cost: Table 1's
 //! multipliers, adders and dividers of the traverse unit.
 
-use lucerna_softfloat::Format;
+use lucerna_softfloat::{Format, Line};
 
 /// A ray in texture space: at `entry + direction · t` it is `t` deep.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -24,7 +24,7 @@ impl<F: Format> Ray<F> {
         });
         let offset =
             core::array::from_fn(|axis| self.entry[axis].sub(F::from_scaled(origin[axis], log2[axis])));
-        Track { origin, offset, direction: self.direction }
+        Track::new(origin, offset, self.direction, log2)
     }
 }
 
@@ -34,54 +34,70 @@ pub const REACH: i32 = 1 << 24;
 /// A ray in coordinates that begin at its entry texel, so that what is rounded is the way from the entry and not the place on
 /// the map (P24).
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Track<F> {
+pub struct Track<F: Format> {
     /// The texel edge from which all is counted; not wrapped.
-    pub origin: [i32; 2],
-    /// Where it enters, from there.
-    pub offset: [F; 2],
-    /// How far it goes from there to the bottom.
-    pub direction: [F; 2],
+    origin: [i32; 2],
+    /// The ray from there.
+    line: F::Line,
+    /// Whether it goes on at all on an axis.
+    across: [bool; 2],
+    /// On which side of a node it leaves it: 1 on the upper, 0 on the lower.
+    pub(super) ahead: [i32; 2],
+    is_in_reach: bool,
 }
 
 impl<F: Format> Track<F> {
+    /// From `offset` beside a texel edge.
+    #[inline]
+    fn new(origin: [i32; 2], offset: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self {
+        let is_number = |x: &F| Format::eq(*x, *x);
+        Self {
+            origin,
+            line: F::Line::new(offset, direction, log2),
+            across: direction.map(|direction| !direction.eq(F::ZERO)),
+            ahead: direction.map(|direction| i32::from(F::ZERO.lt(direction))),
+            is_in_reach: origin.iter().all(|index| index.abs() < REACH) && offset.iter().all(is_number),
+        }
+    }
+
+    /// No ray.
+    pub(crate) fn nowhere() -> Self {
+        Self::new([0; 2], [F::ZERO; 2], [F::ZERO; 2], [0; 2])
+    }
+
     /// Whether its entry is a number, and within [`REACH`].
     #[inline]
-    pub fn is_in_reach(&self) -> bool {
-        let is_number = |x: &F| Format::eq(*x, *x);
-        self.origin.iter().all(|index| index.abs() < REACH) && self.offset.iter().all(is_number)
+    pub const fn is_in_reach(&self) -> bool {
+        self.is_in_reach
     }
 
     /// The leaf texel at `t`.
     #[inline(always)]
-    pub(super) fn texel_at(&self, log2: [u32; 2], t: F) -> [i32; 2] {
-        let [x, y] = F::add_product_floors(self.offset, self.direction, t, log2);
+    pub(super) fn texel_at(&self, t: F) -> [i32; 2] {
+        let [x, y] = self.line.cell(t, 0);
         [self.origin[0] + x, self.origin[1] + y]
+    }
+
+    /// The texels in which it begins and ends, on a grid that is `1 << finer` times finer.
+    pub(super) fn ends(&self, finer: u32) -> [[i32; 2]; 2] {
+        [F::ZERO, F::ONE].map(|t| {
+            let [x, y] = self.line.cell(t, finer);
+            [(self.origin[0] << finer) + x, (self.origin[1] << finer) + y]
+        })
     }
 
     /// Its index on one axis.
     #[inline(always)]
-    pub(super) fn index(&self, axis: usize, t: F, log2: [u32; 2]) -> i32 {
-        self.origin[axis] + self.offset[axis].add_product_floor(self.direction[axis], t, log2[axis])
-    }
-
-    /// The texels in which it begins and ends, on a grid that is `1 << finer` times finer.
-    pub(super) fn ends(&self, log2: [u32; 2], finer: u32) -> [[i32; 2]; 2] {
-        let grid = log2.map(|log2| log2 + finer);
-        let first = self.origin.map(|index| index << finer);
-        [F::ZERO, F::ONE].map(|t| {
-            core::array::from_fn(|axis| {
-                first[axis] + self.offset[axis].add_product_floor(self.direction[axis], t, grid[axis])
-            })
-        })
+    pub(super) fn index(&self, axis: usize, t: F) -> i32 {
+        self.origin[axis] + self.line.index(axis, t)
     }
 
     /// The axis on which it leaves a node whose edges ahead are at leaf indices `edge`, and the parameter at which it does
     /// (P12); x goes first (P13). There is none when it goes straight down.
     #[inline(always)]
-    pub(super) fn exit(&self, edge: [i32; 2], log2: [u32; 2]) -> Option<(usize, F)> {
-        let from_texel = [edge[0] - self.origin[0], edge[1] - self.origin[1]];
-        let [x, y] = F::edge_distances(from_texel, log2, self.offset, self.direction);
-        let [across_x, across_y] = self.direction.map(|direction| !direction.eq(F::ZERO));
+    pub(super) fn exit(&self, edge: [i32; 2]) -> Option<(usize, F)> {
+        let [x, y] = self.line.meets([edge[0] - self.origin[0], edge[1] - self.origin[1]]);
+        let [across_x, across_y] = self.across;
         if !(across_x | across_y) {
             return None;
         }

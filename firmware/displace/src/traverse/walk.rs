@@ -68,19 +68,12 @@ impl<F: Format> Walk<F> {
         let Terrain { field, policies } = terrain;
         let root = field.shape().root();
         let level = if policies.start_level {
-            let [first, last] = track.ends(field.shape().log2(), policies.start_grid);
+            let [first, last] = track.ends(policies.start_grid);
             start::level(first, last, root)
         } else {
             root
         };
-        Self {
-            t: F::ZERO,
-            leaf: track.texel_at(field.shape().log2(), F::ZERO),
-            level,
-            crossed: false,
-            stayed: false,
-            steps: 0,
-        }
+        Self { t: F::ZERO, leaf: track.texel_at(F::ZERO), level, crossed: false, stayed: false, steps: 0 }
     }
 
     /// One step. Without heights the node is beyond the border, where nothing is higher than the bottom.
@@ -92,9 +85,8 @@ impl<F: Format> Walk<F> {
             // P9: nothing to test.
             return if self.down(&terrain.policies) { Step::Down } else { Step::Hit };
         }
-        let log2 = terrain.field.shape().log2();
         let level = self.level;
-        let landing = track.texel_at(log2, depth);
+        let landing = track.texel_at(depth);
         let node = self.leaf.map(|index| index >> level);
         let target = landing.map(|index| index >> level);
         if node != target
@@ -148,11 +140,9 @@ impl<F: Format> Walk<F> {
         target: [i32; 2],
     ) -> Option<bool> {
         let Terrain { field, policies } = terrain;
-        let log2 = field.shape().log2();
         let level = self.level;
-        let ahead = track.direction.map(|direction| F::ZERO.lt(direction));
-        let boundary = [node[0] + i32::from(ahead[0]), node[1] + i32::from(ahead[1])];
-        let (axis, exit) = track.exit(boundary.map(|index| index << level), log2)?;
+        let boundary = [node[0] + track.ahead[0], node[1] + track.ahead[1]];
+        let (axis, exit) = track.exit(boundary.map(|index| index << level))?;
         if !exit.lt(depth) {
             return None;
         }
@@ -160,9 +150,8 @@ impl<F: Format> Walk<F> {
             self.t = exit;
         }
         let other = 1 - axis;
-        let edge = boundary[axis] << level;
-        self.leaf[axis] = if ahead[axis] { edge } else { edge - 1 };
-        self.leaf[other] = within(track.index(other, self.t, log2), node[other], level);
+        self.leaf[axis] = (boundary[axis] << level) + track.ahead[axis] - 1;
+        self.leaf[other] = within(track.index(other, self.t), node[other], level);
         self.crossed = true;
         let crossing = Crossing { node, target, boundary: boundary[axis], stayed: self.stayed };
         let up = policies.ascend.goes_up(policies.coherent, policies.reach, &crossing)

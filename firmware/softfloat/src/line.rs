@@ -1,0 +1,57 @@
+//! What a datapath asks of a straight line in a plane; in: a point and a direction, out: cells of a grid, and where the line meets
+//! edges of it; cost: a multiplication and an addition a cell, a subtraction and a division an edge.
+
+use crate::Format;
+
+/// A line `point + direction · t` on a grid of `1 << log2` cells a unit, as far as a format can follow it: every operation is
+/// rounded. What a line is asked for many times an implementation may work out once.
+pub trait Line<F>: Copy + core::fmt::Debug + PartialEq {
+    /// The line; `log2` of either axis is at most 31.
+    fn new(point: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self;
+
+    /// The cell at `t`, which is from 0 to 1, of a grid that is `1 << finer` times finer:
+    /// `⌊(point + direction · t) · 2^(log2 + finer)⌋`, product and sum each rounded to the format, clipped as
+    /// [`floor_scaled`](Format::floor_scaled).
+    fn cell(&self, t: F, finer: u32) -> [i32; 2];
+
+    /// Its index on one axis, 0 or 1, of the grid itself.
+    fn index(&self, axis: usize, t: F) -> i32;
+
+    /// The `t` at which it meets an edge of each axis: `(edge · 2^-log2 − point) / direction`, all three rounded.
+    fn meets(&self, edge: [i32; 2]) -> [F; 2];
+}
+
+/// A line that does each operation when it is asked: what any other implementation has to agree with, to the bit.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PlainLine<F> {
+    point: [F; 2],
+    direction: [F; 2],
+    log2: [u8; 2],
+}
+
+impl<F: Format> PlainLine<F> {
+    #[inline]
+    fn at(&self, axis: usize, t: F) -> F {
+        self.point[axis].add(self.direction[axis].mul(t))
+    }
+}
+
+impl<F: Format> Line<F> for PlainLine<F> {
+    #[inline]
+    fn new(point: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self {
+        Self { point, direction, log2: log2.map(|log2| log2 as u8) }
+    }
+    #[inline]
+    fn cell(&self, t: F, finer: u32) -> [i32; 2] {
+        [0, 1].map(|axis| self.at(axis, t).floor_scaled(u32::from(self.log2[axis]) + finer))
+    }
+    #[inline]
+    fn index(&self, axis: usize, t: F) -> i32 {
+        self.at(axis, t).floor_scaled(self.log2[axis].into())
+    }
+    #[inline]
+    fn meets(&self, edge: [i32; 2]) -> [F; 2] {
+        let Self { point, direction, log2 } = self;
+        [0, 1].map(|axis| F::from_scaled(edge[axis], log2[axis].into()).sub(point[axis]).div(direction[axis]))
+    }
+}

@@ -1,0 +1,127 @@
+//! Lines of [`HostF24`]; in: a point and a direction, out: what the plain operations find, to the bit; cost: the host's operations
+//! without most of the roundings.
+//!
+//! Point and direction are kept in cells of the grid, which changes their exponents only. A cell is the floor of a sum that
+//! is not rounded to F24, unless this is so near an edge that rounding could have taken it across. And quotients are products with
+//! a reciprocal: the quotient of two 17-bit numbers is never nearer than 2^-34 of itself to the middle between two 17-bit
+//! numbers, and the product is off by 2^-52 at most, so both are rounded to the same number.
+
+use lucerna_softfloat::{Line, PlainLine};
+
+use super::{HostF24, nearest, power_of_two};
+
+/// Fraction bits of a sum as an integer, in which the distance to the next cell is judged.
+const FRACTION: u32 = 19;
+/// Added to a sum, it leaves no other fraction bits, and the sum as an integer in the low bits.
+const ANCHOR: f64 = 1.5 * (1u64 << (52 - FRACTION)) as f64;
+/// A [`Line24::doubt`] that leaves no sum certain.
+const ALL: u32 = 1 << FRACTION;
+/// Cells within which a line is followed this way; its edges are within twice that, and so each is an F24 number.
+const REACH: u32 = 1 << 16;
+
+/// A line whose reciprocals and error bounds are known.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Line24 {
+    /// The point, in cells.
+    start: [f64; 2],
+    /// The direction, in cells.
+    way: [f64; 2],
+    /// Its reciprocal.
+    pace: [f64; 2],
+    /// So many units of the last [`FRACTION`] bit the roundings can add up to.
+    doubt: [u32; 2],
+    /// How far away edges may be.
+    reach: u32,
+    log2: [u8; 2],
+}
+
+impl Line24 {
+    /// The line that does every rounding.
+    fn plain(&self) -> PlainLine<HostF24> {
+        let log2 = self.log2.map(u32::from);
+        let unscaled =
+            |cells: [f64; 2]| [0, 1].map(|axis| HostF24(cells[axis] * power_of_two(-(log2[axis] as i32))));
+        PlainLine::new(unscaled(self.start), unscaled(self.way), log2)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn plain_cell(&self, t: HostF24, finer: u32) -> [i32; 2] {
+        self.plain().cell(t, finer)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn plain_index(&self, axis: usize, t: HostF24) -> i32 {
+        self.plain().index(axis, t)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn plain_meets(&self, edge: [i32; 2]) -> [HostF24; 2] {
+        self.plain().meets(edge)
+    }
+
+    /// An index, and whether it is certain.
+    #[inline(always)]
+    fn unrounded(&self, axis: usize, t: HostF24) -> (i32, bool) {
+        let sum = (self.start[axis] + self.way[axis] * t.0 + ANCHOR).to_bits();
+        let doubt = self.doubt[axis];
+        let margin = (sum as u32).wrapping_add(doubt) & ((1 << FRACTION) - 1);
+        ((sum >> FRACTION) as i32, margin > 2 * doubt)
+    }
+}
+
+impl Line<HostF24> for Line24 {
+    #[inline]
+    fn new(point: [HostF24; 2], direction: [HostF24; 2], log2: [u32; 2]) -> Self {
+        let scaled =
+            |numbers: [HostF24; 2]| [0, 1].map(|axis| numbers[axis].0 * power_of_two(log2[axis] as i32));
+        let (start, way) = (scaled(point), scaled(direction));
+        // Then no sum of an edge and the point has more than 53 bits, and no difference or quotient is a subnormal F24 number.
+        let fit = |x: f64, least: f64| x == 0.0 || x.abs() >= least;
+        let is_tame = |axis: usize| {
+            fit(start[axis], power_of_two(-19))
+                && fit(way[axis], power_of_two(-24))
+                && start[axis].abs() + way[axis].abs() < f64::from(REACH)
+                && log2[axis] <= 16
+        };
+        let tame = is_tame(0) & is_tame(1);
+        // The product is rounded by up to 2^-17 of it, the sum by as much of it; and some for the bits that are dropped here.
+        let doubt = |axis: usize| {
+            let units = (start[axis].abs() + 2.001 * way[axis].abs()) * power_of_two(FRACTION as i32 - 17);
+            units as u32 + 3
+        };
+        Self {
+            start,
+            way,
+            pace: way.map(f64::recip),
+            doubt: [0, 1].map(|axis| if tame { doubt(axis).min(ALL) } else { ALL }),
+            reach: if tame { 2 * REACH } else { 0 },
+            log2: log2.map(|log2| log2 as u8),
+        }
+    }
+
+    #[inline(always)]
+    fn cell(&self, t: HostF24, finer: u32) -> [i32; 2] {
+        let [(x, x_certain), (y, y_certain)] = [self.unrounded(0, t), self.unrounded(1, t)];
+        if x_certain & y_certain & (finer == 0) { [x, y] } else { self.plain_cell(t, finer) }
+    }
+
+    #[inline(always)]
+    fn index(&self, axis: usize, t: HostF24) -> i32 {
+        let (index, certain) = self.unrounded(axis & 1, t);
+        if certain { index } else { self.plain_index(axis & 1, t) }
+    }
+
+    #[inline(always)]
+    fn meets(&self, edge: [i32; 2]) -> [HostF24; 2] {
+        let near = edge.map(|edge| edge.wrapping_add(self.reach as i32) as u32);
+        if (near[0] < 2 * self.reach) & (near[1] < 2 * self.reach) {
+            return [0, 1].map(|axis| {
+                HostF24(nearest(nearest(f64::from(edge[axis]) - self.start[axis]) * self.pace[axis]))
+            });
+        }
+        self.plain_meets(edge)
+    }
+}
