@@ -11,19 +11,18 @@ use lucerna_softfloat::Format;
 
 use crate::engine::{Event, Parts};
 use crate::instance::Instance;
-use crate::job::RayFaults;
 use crate::outlook::{Shading, Switching};
 use crate::outside::{Cache, Outside};
 use crate::sizes::MAX_UNITS;
 
 /// When the parts of all instances are to be called.
-struct Agenda {
-    shading: [Shading; MAX_UNITS as usize],
-    switching: Switching,
+pub(crate) struct Agenda {
+    pub shading: [Shading; MAX_UNITS as usize],
+    pub switching: Switching,
     /// When the next view calculation has a result, of each instance.
-    viewed: [u64; MAX_UNITS as usize],
+    pub viewed: [u64; MAX_UNITS as usize],
     /// The next fill.
-    arrival: u64,
+    pub arrival: u64,
 }
 
 impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
@@ -34,7 +33,7 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
         let mut agenda = self.agenda();
         let mut event = None;
         while event.is_none() {
-            self.quiet(&mut agenda, end);
+            self.alone(&mut agenda, end);
             if self.outside.now == end {
                 break;
             }
@@ -64,102 +63,6 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
         }
     }
 
-    /// Cycles before `end` in which the ring of an only instance turns and nothing else happens; when the ring is full, nothing
-    /// else that it could take notice of.
-    #[inline]
-    fn quiet(&mut self, agenda: &mut Agenda, end: u64) {
-        let [instance] = &mut *self.instances else { return };
-        // A fault of a ray that is not traversed ends the job in its cycle.
-        if instance.slots.is_full() && self.outside.job.ray_faults == RayFaults::Record {
-            self.closed(agenda, end);
-            return;
-        }
-        let outside = &mut self.outside;
-        if *outside.done == outside.job.results.count() {
-            // A job of no ray, which ends with its first cycle.
-            return;
-        }
-        let event = agenda.shading[0].event.min(agenda.switching.event).min(agenda.viewed[0]);
-        let (start, mut until) = (outside.now, end.min(event).min(agenda.arrival));
-        while outside.now < until && instance.is_quiet() {
-            if let Some(line) = instance.turns(until, outside) {
-                instance.ask(line, outside);
-                outside.now += 1;
-                agenda.arrival = outside.arrival();
-                until = until.min(agenda.arrival);
-            }
-        }
-        outside.counters.cycles += outside.now - start;
-    }
-
-    /// The same with a full ring, and the cycles in which a ray leaves it and another enters. Until a ray has ended the ring takes
-    /// none, so what comes before it and what comes after it may be late: they catch up when the ring has to do with them,
-    /// and before it asks for a line, so that the port's requests are in their order.
-    fn closed(&mut self, agenda: &mut Agenda, end: u64) {
-        let start = self.outside.now;
-        let mut full = true;
-        while full && self.outside.now < end.min(agenda.arrival) {
-            let now = self.outside.now;
-            if self.instances.first().is_some_and(|instance| !instance.slots.goes_on()) {
-                self.shade_before(agenda, now + 1);
-                self.supply_before(agenda, now);
-                if let [instance] = &mut *self.instances {
-                    leave_and_enter(instance, &mut self.outside, agenda);
-                    full = instance.slots.is_full();
-                }
-            }
-            let until = if full { end.min(agenda.arrival) } else { now + 1 };
-            let [instance] = &mut *self.instances else { break };
-            if let Some(line) = instance.turns(until, &mut self.outside) {
-                let now = self.outside.now;
-                self.shade_before(agenda, now + 1);
-                let [instance] = &mut *self.instances else { break };
-                instance.ask(line, &mut self.outside);
-                agenda.arrival = self.outside.arrival();
-                self.outside.now = now + 1;
-            }
-        }
-        self.shade_before(agenda, self.outside.now);
-        self.supply_before(agenda, self.outside.now);
-        self.outside.counters.cycles += self.outside.now - start;
-    }
-
-    /// What an only instance's address, read and colour units do before cycle `now`, and the fills that they get.
-    fn shade_before(&mut self, agenda: &mut Agenda, now: u64) {
-        let Self { instances, outside, .. } = self;
-        let present = outside.now;
-        loop {
-            outside.now = agenda.shading[0].event.min(agenda.arrival);
-            if outside.now >= now {
-                break;
-            }
-            if outside.now == agenda.arrival {
-                fills(instances, outside, agenda);
-            }
-            let [instance] = &mut **instances else { break };
-            shade(instance, outside, agenda);
-        }
-        outside.now = present;
-    }
-
-    /// What the switch and an only instance's view calculation do before cycle `now`.
-    fn supply_before(&mut self, agenda: &mut Agenda, now: u64) {
-        let present = self.outside.now;
-        loop {
-            self.outside.now = agenda.switching.event.min(agenda.viewed[0]);
-            if self.outside.now >= now {
-                break;
-            }
-            if let [instance] = &mut *self.instances
-                && self.outside.now == agenda.viewed[0]
-            {
-                settle_view(instance, &mut self.outside, agenda);
-            }
-            self.hand_over(agenda);
-        }
-        self.outside.now = present;
-    }
-
     /// One clock, as [`tick`](Self::tick).
     fn cycle(&mut self, agenda: &mut Agenda) -> Option<Event> {
         let Self { instances, outside, .. } = self;
@@ -172,9 +75,7 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
             if now >= agenda.shading[unit].event {
                 shade(instance, outside, agenda);
             }
-            if !instance.is_quiet() {
-                leave_and_enter(instance, outside, agenda);
-            }
+            leave_and_enter(instance, outside, agenda);
             if instance.turn(outside) {
                 agenda.arrival = outside.arrival();
             }
@@ -227,6 +128,9 @@ fn leave_and_enter<F: Format, const LINES: usize>(
     outside: &mut Outside<'_, F>,
     agenda: &mut Agenda,
 ) {
+    if instance.slots.goes_on() {
+        return;
+    }
     let ended = instance.fifo1.len();
     instance.leave_and_enter(outside);
     agenda.switching.event = outside.now;
@@ -254,17 +158,20 @@ fn settle_view<F: Format, const LINES: usize>(
 
 /// The lines that have come.
 #[cold]
-fn fills<F: Format, const LINES: usize>(
+pub(crate) fn fills<F: Format, const LINES: usize>(
     instances: &mut [Instance<F, LINES>],
     outside: &mut Outside<'_, F>,
     agenda: &mut Agenda,
 ) {
     while let Some(fill) = outside.port.arrived(outside.now) {
         let Some(instance) = instances.get_mut(fill.unit) else { continue };
-        instance.fill(fill, outside.counters);
         if fill.cache == Cache::Texture {
-            agenda.shading[fill.unit].event = outside.now;
+            // What waited for it did so until now.
+            let shading = &mut agenda.shading[fill.unit];
+            shading.catch_up(outside.now, outside.counters);
+            shading.event = outside.now;
         }
+        instance.fill(fill, outside.counters);
     }
     agenda.arrival = outside.arrival();
 }

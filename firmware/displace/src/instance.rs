@@ -18,7 +18,6 @@ use crate::outside::{Cache, Fill, Outside};
 use crate::read::{Fetch, Read};
 use crate::record::{Outcome, Status};
 use crate::shade::address::{Addresses, Hit, addresses};
-use crate::shade::colour::colour;
 use crate::sizes::{Caches, MAX_FIFO, Sizes};
 use crate::slots::{Ended, Entrant, Slots};
 use crate::traverse::ray::Ray;
@@ -27,12 +26,14 @@ use crate::view::View;
 /// One instance.
 #[derive(Clone, Debug)]
 pub struct Instance<F: Format, const LINES: usize> {
-    depth0: usize,
-    depth1: usize,
+    pub(crate) depth0: usize,
+    pub(crate) depth1: usize,
     pub(crate) view: SemiPipeline<(u32, View<F>), VIEW_DEPTH>,
     /// Rays in the view calculation, for which FIFO #0 keeps room.
-    coming: usize,
+    pub(crate) coming: usize,
     pub(crate) fifo0: Deque<Entrant<F>, MAX_FIFO>,
+    /// When rays left FIFO #0 that the switch, being late, does not know of.
+    pub(crate) taken: Deque<u64, MAX_FIFO>,
     pub(crate) slots: Slots<F, LINES>,
     pub(crate) fifo1: Deque<Ended<F>, MAX_FIFO>,
     pub(crate) address: SemiPipeline<Fetch<F>, ADDRESS_DEPTH>,
@@ -49,6 +50,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
             view: SemiPipeline::new(VIEW_LIST.pace()),
             coming: 0,
             fifo0: Deque::new(),
+            taken: Deque::new(),
             slots: Slots::new(caches.height),
             fifo1: Deque::new(),
             address: SemiPipeline::new(ADDRESS.pace()),
@@ -65,6 +67,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         });
         self.coming = 0;
         self.fifo0.clear();
+        self.taken.clear();
         self.slots.clear();
         self.fifo1.clear();
         self.address.clear();
@@ -92,8 +95,8 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     #[inline]
     pub(crate) fn shade(&mut self, outside: &mut Outside<'_, F>) -> bool {
         let (job, now) = (outside.job, outside.now);
-        if let Some(Fetch { number, outcome, texture, normal }) = self.colour.take(now) {
-            outside.result(number, &Outcome { colour: colour(&job.light, texture, normal), ..outcome });
+        if let Some(fetch) = self.colour.take(now) {
+            outside.shaded(&fetch);
         }
         if self.read.is_done() {
             if self.colour.can_issue(now)
@@ -119,15 +122,11 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
             outside.request(Cache::Texture, line, self.read.cache.geometry().line_bytes);
         }
         if self.address.can_issue(now)
+            && self.fifo1.front().is_some_and(|ended| ended.left < now)
             && let Some(ended) = self.fifo1.pop_front()
         {
-            let Ray { entry, direction } = ended.ray;
-            let hit = Hit { entry, direction, t: ended.t, texel: ended.leaf };
-            let addresses = addresses(&hit, job.map.shape, job.texture.shape, job.normals.shape);
             outside.counters.address_busy += u64::from(self.address.pace().interval);
-            let outcome = Outcome { position: addresses.position, ..unshaded(&ended) };
-            let Addresses { texture, normal, .. } = addresses;
-            let _ = self.address.issue(now, Fetch { number: ended.number, outcome, texture, normal });
+            let _ = self.address.issue(now, fetch(&ended, job));
         }
         line.is_some()
     }
@@ -135,23 +134,35 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     /// Stage 1 of the ring: to FIFO #1, and from FIFO #0.
     #[inline]
     pub(crate) fn leave_and_enter(&mut self, outside: &mut Outside<'_, F>) {
-        if self.slots.goes_on() {
-            return;
+        if !self.slots.goes_on() {
+            self.leave(outside);
+            let _ = self.enter(outside);
         }
-        if let Some(ended) = self.slots.ended() {
-            if ended.status != Status::Hit {
-                self.slots.release();
-                let colour = outside.job.background;
-                outside.result(ended.number, &Outcome { colour, ..unshaded(&ended) });
-            } else if self.fifo1.len() < self.depth1 && self.fifo1.push_back(ended).is_ok() {
-                self.slots.release();
-            }
+    }
+
+    /// The ray in stage 1 leaves if it has ended: to FIFO #1 if there is room, or to its result.
+    #[inline]
+    pub(crate) fn leave(&mut self, outside: &mut Outside<'_, F>) {
+        let Some(ended) = self.slots.ended(outside.now) else { return };
+        if ended.status != Status::Hit {
+            self.slots.release();
+            let colour = outside.job.background;
+            outside.result(ended.number, &Outcome { colour, ..unshaded(&ended) });
+        } else if self.fifo1.len() < self.depth1 && self.fifo1.push_back(ended).is_ok() {
+            self.slots.release();
         }
+    }
+
+    /// A ray enters stage 1 if that is free; says whether one did.
+    #[inline]
+    pub(crate) fn enter(&mut self, outside: &Outside<'_, F>) -> bool {
         if self.slots.is_free()
             && let Some(entrant) = self.fifo0.pop_front()
         {
             self.slots.load(entrant, outside.job);
+            return true;
         }
+        false
     }
 
     /// Stage 2 of the ring, and its turn; says whether a line was asked for.
@@ -163,17 +174,6 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
             self.ask(line, outside);
         }
         line.is_some()
-    }
-
-    /// The ring turns until cycle `end`, or until something may leave or enter it, but at least once. When a line is to be asked
-    /// for, this is given, and the cycle is the one in which it is.
-    #[inline]
-    pub(crate) fn turns(&mut self, end: u64, outside: &mut Outside<'_, F>) -> Option<u32> {
-        let Outside { job, depths, memory, counters, now, .. } = outside;
-        let idle = self.fifo0.is_empty();
-        let (turned, line) = self.slots.turns(end - *now, idle, job, depths, memory, counters);
-        *now += turned - u64::from(line.is_some());
-        line
     }
 
     /// Asks for a line of heights.
@@ -199,12 +199,6 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         }
     }
 
-    /// Whether nothing leaves or enters the ring in stage 1.
-    #[inline]
-    pub(crate) fn is_quiet(&self) -> bool {
-        self.slots.is_quiet(self.fifo0.is_empty())
-    }
-
     /// When the view calculation has its next result.
     #[inline]
     pub(crate) fn viewed(&self) -> u64 {
@@ -226,8 +220,18 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     }
 }
 
+/// What the address calculation makes of a hit.
+#[inline]
+pub(crate) fn fetch<F: Format>(ended: &Ended<F>, job: &Job<F>) -> Fetch<F> {
+    let Ray { entry, direction } = ended.ray;
+    let hit = Hit { entry, direction, t: ended.t, texel: ended.leaf };
+    let Addresses { position, texture, normal } =
+        addresses(&hit, job.map.shape, job.texture.shape, job.normals.shape);
+    Fetch { number: ended.number, outcome: Outcome { position, ..unshaded(ended) }, texture, normal }
+}
+
 /// The outcome of a ray without position and colour.
-fn unshaded<F: Format>(ended: &Ended<F>) -> Outcome<F> {
+pub(crate) fn unshaded<F: Format>(ended: &Ended<F>) -> Outcome<F> {
     Outcome {
         status: ended.status,
         texel: ended.leaf,

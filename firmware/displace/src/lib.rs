@@ -51,6 +51,7 @@
 //! ```
 #![cfg_attr(not(test), no_std)]
 
+mod alone;
 pub mod counters;
 pub mod engine;
 mod fast;
@@ -59,6 +60,7 @@ pub mod job;
 pub mod operators;
 mod outlook;
 pub mod outside;
+mod passage;
 pub mod pyramid;
 pub mod read;
 pub mod record;

@@ -35,8 +35,8 @@ impl Shading {
         let blocked = address.ready(now).is_some() && !read.is_idle();
         if !blocked {
             event = event.min(address.next_event().unwrap_or(NEVER));
-            if !fifo1.is_empty() {
-                event = event.min(address.next_issue());
+            if let Some(ended) = fifo1.front() {
+                event = event.min(address.next_issue().max(ended.left + 1));
             }
         }
         Self {

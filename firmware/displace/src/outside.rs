@@ -5,7 +5,9 @@ use lucerna_softfloat::Format;
 
 use crate::counters::Counters;
 use crate::job::{Fault, FaultCode, Job, RayFaults};
+use crate::read::Fetch;
 use crate::record::{Outcome, RESULT_WORDS, Status};
+use crate::shade::colour::colour;
 use crate::sizes::MAX_UNITS;
 use crate::slots::STAGES;
 use crate::traverse::heights::Depths;
@@ -73,6 +75,13 @@ impl<F: Format> Outside<'_, F> {
         let _ = self.port.request(self.now, bytes, Fill { unit: self.unit, cache, line });
         self.counters.port_bytes += self.port.totals().bytes - before.bytes;
         self.counters.port_busy += self.port.totals().busy - before.busy;
+    }
+
+    /// Writes the result of a hit whose texels are known.
+    #[inline]
+    pub(crate) fn shaded(&mut self, fetch: &Fetch<F>) {
+        let colour = colour(&self.job.light, fetch.texture, fetch.normal);
+        self.result(fetch.number, &Outcome { colour, ..fetch.outcome });
     }
 
     /// Writes a result.

@@ -1,11 +1,12 @@
 //! A slot of the ring; in: its ray and a height, out: what becomes of the ray; cost: a turn.
 
+use lucerna_fabric::cache::Tags;
 use lucerna_softfloat::Format;
 
 use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
-use crate::traverse::heights::Fetched;
+use crate::traverse::heights::{Depths, Fetched};
 use crate::traverse::ray::{Ray, Track};
 use crate::traverse::walk::{Step, Walk};
 
@@ -39,10 +40,71 @@ pub(crate) struct Slot<F: Format> {
     pub walk: Walk<F>,
 }
 
+/// Where heights are.
+#[derive(Clone, Copy)]
+pub(crate) struct Heights<'a, F> {
+    /// The pyramid's words.
+    pub words: &'a [[u32; 1]],
+    /// Byte address of the first.
+    pub base: u32,
+    pub depths: &'a Depths<F>,
+}
+
+/// What a turn came to.
+pub(crate) enum Turn {
+    /// The slot goes on as it is, or the ray in it.
+    On,
+    /// The ray ended, on a texel or not.
+    Ended { hit: bool },
+    /// The slot waits for a line.
+    Missed { line: u32 },
+}
+
 impl<F: Format> Slot<F> {
+    /// A turn: a step, if the height for it is there.
+    #[inline(always)]
+    pub fn turn<const LINES: usize>(
+        &mut self,
+        job: &Job<F>,
+        heights: &Heights<'_, F>,
+        cache: &mut Tags<LINES>,
+        counters: &mut Counters,
+    ) -> Turn {
+        let served = self.state == State::Served;
+        if self.state != State::Walk && !served {
+            self.other_turn(job, counters);
+            return Turn::On;
+        }
+        let mut fetched = None;
+        if let Some(place) = self.walk.node(&job.terrain.field) {
+            if served {
+                counters.height_forwards += 1;
+            } else {
+                counters.height_accesses += 1;
+                let address = heights.base + place;
+                if !cache.lookup(address) {
+                    return self.miss(cache.line(address), counters);
+                }
+                counters.height_hits += 1;
+            }
+            let [word] = heights.words.get(place as usize / 4).copied().unwrap_or_default();
+            fetched = Some(Fetched { place, word, depths: heights.depths });
+        }
+        self.step(job, fetched, counters)
+    }
+
+    /// The slot waits for a line.
+    #[cold]
+    fn miss(&mut self, line: u32, counters: &mut Counters) -> Turn {
+        self.state = State::Wait { line };
+        counters.height_misses += 1;
+        counters.traverse_waits += 1;
+        Turn::Missed { line }
+    }
+
     /// A turn that is no step.
     #[inline(never)]
-    pub fn other_turn(&mut self, job: &Job<F>, counters: &mut Counters) {
+    fn other_turn(&mut self, job: &Job<F>, counters: &mut Counters) {
         match self.state {
             State::Empty => counters.traverse_bubbles += 1,
             State::Start => {
@@ -62,7 +124,7 @@ impl<F: Format> Slot<F> {
 
     /// A step, with the heights that the cache delivered.
     #[inline(always)]
-    pub fn step(&mut self, job: &Job<F>, fetched: Option<Fetched<'_, F>>, counters: &mut Counters) {
+    fn step(&mut self, job: &Job<F>, fetched: Option<Fetched<'_, F>>, counters: &mut Counters) -> Turn {
         counters.traverse_busy += 1;
         counters.steps += 1;
         self.state = State::Walk;
@@ -80,21 +142,21 @@ impl<F: Format> Slot<F> {
             Step::CrossHit => {
                 counters.crossings += 1;
                 counters.folds += 1;
-                self.state = self.hit(job);
-                return;
+                return self.end(if self.has_hit(job) { Status::Hit } else { Status::Miss });
             }
-            Step::Hit => {
-                self.state = self.hit(job);
-                return;
-            }
+            Step::Hit => return self.end(if self.has_hit(job) { Status::Hit } else { Status::Miss }),
         }
-        if self.walk.steps >= job.watchdog {
-            self.state = State::Ended(Status::Watchdog);
-        }
+        if self.walk.steps >= job.watchdog { self.end(Status::Watchdog) } else { Turn::On }
     }
 
     #[inline]
-    fn hit(&self, job: &Job<F>) -> State {
-        State::Ended(if job.terrain.field.lets_hit(self.walk.leaf) { Status::Hit } else { Status::Miss })
+    fn end(&mut self, status: Status) -> Turn {
+        self.state = State::Ended(status);
+        Turn::Ended { hit: status == Status::Hit }
+    }
+
+    #[inline]
+    fn has_hit(&self, job: &Job<F>) -> bool {
+        job.terrain.field.lets_hit(self.walk.leaf)
     }
 }

@@ -13,8 +13,8 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
-use crate::slot::{Slot, State};
-use crate::traverse::heights::{Depths, Fetched};
+use crate::slot::{Heights, Slot, State, Turn};
+use crate::traverse::heights::Depths;
 use crate::traverse::ray::{Ray, Track};
 use crate::traverse::walk::Walk;
 
@@ -47,15 +47,17 @@ pub struct Ended<F> {
     pub steps: u32,
     /// Where it began.
     pub start_level: u32,
+    /// In which cycle it left.
+    pub left: u64,
 }
 
-/// Where heights are.
-struct Heights<'a, F> {
-    /// The pyramid's words.
-    words: &'a [[u32; 1]],
-    /// Byte address of the first.
-    base: u32,
-    depths: &'a Depths<F>,
+/// The bits of all slots.
+const ALL: u32 = (1 << STAGES) - 1;
+
+/// The slot behind this one.
+#[inline]
+const fn next(slot: usize) -> usize {
+    if slot == STAGES - 1 { 0 } else { slot + 1 }
 }
 
 /// A traverse unit with its height cache.
@@ -64,6 +66,10 @@ pub struct Slots<F: Format, const LINES: usize> {
     slots: [Slot<F>; STAGES],
     /// The slot in stage 1.
     entry: usize,
+    /// A bit for each slot that is empty or holds a ray that has ended.
+    done: u32,
+    /// Of these, those with a hit.
+    hits: u32,
     occupied: usize,
     /// The height cache.
     pub cache: Tags<LINES>,
@@ -75,7 +81,7 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         let ray = Ray { entry: [F::ZERO; 2], direction: [F::ZERO; 2] };
         let (track, walk) = (Track::nowhere(), Walk::NOWHERE);
         let empty = Slot { state: State::Empty, number: 0, start_level: 0, ray, track, walk };
-        Self { slots: [empty; STAGES], entry: 0, occupied: 0, cache }
+        Self { slots: [empty; STAGES], entry: 0, done: ALL, hits: 0, occupied: 0, cache }
     }
 
     /// Drops all rays and empties the cache.
@@ -84,31 +90,35 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
             slot.state = State::Empty;
         }
         self.entry = 0;
+        (self.done, self.hits) = (ALL, 0);
         self.occupied = 0;
         self.cache.clear();
     }
 
-    /// Whether every slot holds a ray.
+    /// How many slots hold a ray.
     #[inline]
-    pub const fn is_full(&self) -> bool {
-        self.occupied == STAGES
+    pub const fn occupied(&self) -> usize {
+        self.occupied
     }
 
-    /// Whether nothing leaves or enters in stage 1, where no ray enters when it is `idle`.
+    /// How the ray in stage 1 ended, if it has.
     #[inline]
-    pub fn is_quiet(&self, idle: bool) -> bool {
-        self.goes_on() || idle && self.is_free()
+    pub fn outcome(&self) -> Option<Status> {
+        match self.slots[self.entry].state {
+            State::Ended(status) => Some(status),
+            _ => None,
+        }
     }
 
     /// Whether stage 1 holds a ray that goes on: nothing leaves or enters then.
     #[inline]
-    pub fn goes_on(&self) -> bool {
-        !matches!(self.slots[self.entry].state, State::Empty | State::Ended(_))
+    pub const fn goes_on(&self) -> bool {
+        self.done >> self.entry & 1 == 0
     }
 
     /// The ray in stage 1, if it has ended.
     #[inline]
-    pub fn ended(&self) -> Option<Ended<F>> {
+    pub fn ended(&self, now: u64) -> Option<Ended<F>> {
         let slot = &self.slots[self.entry];
         let State::Ended(status) = slot.state else { return None };
         Some(Ended {
@@ -119,6 +129,7 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
             t: slot.walk.t,
             steps: slot.walk.steps,
             start_level: slot.start_level,
+            left: now,
         })
     }
 
@@ -126,6 +137,7 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
     #[inline]
     pub fn release(&mut self) {
         self.slots[self.entry].state = State::Empty;
+        self.hits &= !(1 << self.entry);
         self.occupied -= 1;
     }
 
@@ -148,82 +160,91 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
             slot.state = State::Ended(Status::Grazing);
         } else if job.terrain.policies.start_level {
             slot.state = State::Start;
+            self.done &= !(1 << self.entry);
         } else {
             slot.walk = Walk::new(&slot.track, &job.terrain);
             slot.state = State::Walk;
+            self.done &= !(1 << self.entry);
         }
         self.occupied += 1;
     }
 
-    /// Turns by up to `cycles` stages, at least one, until something may leave or enter in stage 1, where no ray enters when it
-    /// is `idle`. In each the slot in stage 2 has its turn. Gives how often it turned, and the line that is to be asked for if the
-    /// last turn was the first miss of it.
+    /// Turns by up to `cycles` stages, at least one, until something may leave or enter in stage 1; a hit does not when hits are
+    /// `held`. In each the slot in stage 2 has its turn. Gives how often it turned, and the line that is to be asked for if the last
+    /// turn was the first miss of it.
     pub fn turns(
         &mut self,
         cycles: u64,
-        idle: bool,
+        held: bool,
         job: &Job<F>,
         depths: &Depths<F>,
         memory: &[u32],
         counters: &mut Counters,
     ) -> (u64, Option<u32>) {
-        let map = Heights { words: job.map.words.records(memory), base: job.map.words.address(0), depths };
+        let heights =
+            Heights { words: job.map.words.records(memory), base: job.map.words.address(0), depths };
         let mut turned = 0;
-        let mut stage2 = if self.entry == 0 { STAGES - 1 } else { self.entry - 1 };
-        let line = loop {
-            let line = self.access(stage2, job, &map, counters);
-            stage2 = self.entry;
-            self.entry = if stage2 == STAGES - 1 { 0 } else { stage2 + 1 };
-            turned += 1;
-            if line.is_some() || turned >= cycles || !self.is_quiet(idle) {
-                break line;
+        loop {
+            // A slot that stops in one of these turns is in stage 1 after 14 more.
+            let most = (cycles - turned).min(STAGES as u64 - 1) as usize;
+            let run = most.min(self.clear_turns(held));
+            let (done, line) = self.run(run, job, &heights, counters);
+            turned += done as u64;
+            let first = line.filter(|line| self.waiting_for(*line) == 1);
+            if first.is_some() || turned >= cycles || self.stops(held) >> self.entry & 1 == 1 {
+                return (turned, first);
             }
-        };
-        (turned, line)
+        }
     }
 
-    /// A slot's turn; gives the line that is to be asked for, if this is the first miss of it.
-    #[inline(always)]
-    fn access(
+    /// Slots that stop the ring when they are in stage 1.
+    #[inline]
+    const fn stops(&self, held: bool) -> u32 {
+        if held { self.done & !self.hits } else { self.done }
+    }
+
+    /// After how many turns the next of them is there.
+    #[inline]
+    fn clear_turns(&self, held: bool) -> usize {
+        let stops = self.stops(held);
+        let after = next(self.entry);
+        (stops >> after | stops << (STAGES - after)).trailing_zeros() as usize + 1
+    }
+
+    /// `turns` turns, or up to one in which a slot begins to wait; gives how many, and for which line.
+    #[inline]
+    fn run(
         &mut self,
-        stage2: usize,
+        turns: usize,
         job: &Job<F>,
-        map: &Heights<'_, F>,
+        heights: &Heights<'_, F>,
         counters: &mut Counters,
-    ) -> Option<u32> {
-        let slot = &mut self.slots[stage2];
-        let served = slot.state == State::Served;
-        if slot.state != State::Walk && !served {
-            slot.other_turn(job, counters);
-            return None;
-        }
-        let mut fetched = None;
-        if let Some(place) = job.terrain.field.place(slot.walk.leaf, slot.walk.level) {
-            if served {
-                counters.height_forwards += 1;
-            } else {
-                counters.height_accesses += 1;
-                let address = map.base + place;
-                if !self.cache.lookup(address) {
-                    return self.miss(stage2, address, counters);
+    ) -> (usize, Option<u32>) {
+        let Self { slots, entry, done, hits, cache, .. } = self;
+        let first = if *entry == 0 { STAGES - 1 } else { *entry - 1 };
+        let mut turned = 0;
+        let mut missed = None;
+        // The slots up to the last, and on from slot 0.
+        'run: for part in [first..STAGES.min(first + turns), 0..(first + turns).saturating_sub(STAGES)] {
+            let mut bit = 1 << part.start;
+            for slot in slots.get_mut(part).unwrap_or_default() {
+                turned += 1;
+                match slot.turn(job, heights, cache, counters) {
+                    Turn::On => {}
+                    Turn::Ended { hit } => {
+                        *done |= bit;
+                        *hits |= if hit { bit } else { 0 };
+                    }
+                    Turn::Missed { line } => {
+                        missed = Some(line);
+                        break 'run;
+                    }
                 }
-                counters.height_hits += 1;
+                bit <<= 1;
             }
-            let [word] = map.words.get(place as usize / 4).copied().unwrap_or_default();
-            fetched = Some(Fetched { place, word, depths: map.depths });
         }
-        slot.step(job, fetched, counters);
-        None
-    }
-
-    /// The slot waits for a line; gives it, if no other slot does.
-    #[cold]
-    fn miss(&mut self, stage2: usize, address: u32, counters: &mut Counters) -> Option<u32> {
-        let line = self.cache.line(address);
-        self.slots[stage2].state = State::Wait { line };
-        counters.height_misses += 1;
-        counters.traverse_waits += 1;
-        (self.waiting_for(line) == 1).then_some(line)
+        *entry = (*entry + turned) % STAGES;
+        (turned, missed)
     }
 
     fn waiting_for(&self, line: u32) -> usize {

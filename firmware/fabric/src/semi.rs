@@ -46,6 +46,9 @@ pub struct SemiPipeline<T, const DEPTH: usize> {
     free: u64,
     /// By how many cycles its own clock is behind: how long results were held.
     held: u64,
+    /// In which cycle of its own clock it stood still last, and how far behind that was before.
+    stop: u64,
+    held_before: u64,
 }
 
 impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
@@ -55,7 +58,8 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
         const { assert!(DEPTH > 0, "a unit holds at least one operation") };
         let interval = if pace.interval == 0 { 1 } else { pace.interval };
         let latency = if pace.latency == 0 { 1 } else { pace.latency };
-        Self { pace: Pace { interval, latency }, flight: Deque::new(), free: 0, held: 0 }
+        let pace = Pace { interval, latency };
+        Self { pace, flight: Deque::new(), free: 0, held: 0, stop: 0, held_before: 0 }
     }
 
     /// Its pace. Its issue is taken for `interval` cycles an operation.
@@ -67,7 +71,7 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
     /// Whether it takes an operation in this cycle.
     #[inline]
     pub fn can_issue(&self, now: u64) -> bool {
-        now >= self.free + self.held && self.ready(now).is_none() && !self.flight.is_full()
+        self.own(now) >= self.free && self.ready(now).is_none() && !self.flight.is_full()
     }
 
     /// Issues an operation, whose result is known at once and carried along.
@@ -79,7 +83,7 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
         if !self.can_issue(now) {
             return Err(operation);
         }
-        let own = now - self.held;
+        let own = self.own(now);
         self.free = own + u64::from(self.pace.interval);
         self.flight
             .push_back((own + u64::from(self.pace.latency), operation))
@@ -98,8 +102,49 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
     pub fn take(&mut self, now: u64) -> Option<T> {
         self.ready(now)?;
         let (own, result) = self.flight.pop_front()?;
-        self.held = now - own;
+        self.hold(own, now);
         Some(result)
+    }
+
+    /// The result of the cycle `own` of its own clock is taken now.
+    #[inline]
+    fn hold(&mut self, own: u64, now: u64) {
+        if now > own + self.held {
+            (self.stop, self.held_before) = (own, self.held);
+            self.held = now - own;
+        }
+    }
+
+    /// The cycle of its own clock, not before that of the last issue.
+    #[inline]
+    fn own(&self, now: u64) -> u64 {
+        let before = now.saturating_sub(self.held_before);
+        if before <= self.stop { before } else { now.saturating_sub(self.held).max(self.stop) }
+    }
+
+    /// The first cycle from `from` on in which it takes an operation, if no result is held but those that were taken.
+    ///
+    /// A caller that is behind may ask for a cycle before that of the last [`take`](Self::take) or [`pass`](Self::pass), and issue in it, but not before the last issue, and only
+    /// in a unit whose latency is at most two intervals: it remembers one hold.
+    #[inline]
+    pub fn offered(&self, from: u64) -> u64 {
+        let own = self.own(from).max(self.free);
+        own + if own < self.stop { self.held_before } else { self.held }
+    }
+
+    /// When the result of an operation that is issued in cycle `issue`, as [`offered`](Self::offered), is ready.
+    #[inline]
+    pub fn result_of(&self, issue: u64) -> u64 {
+        self.own(issue) + u64::from(self.pace.latency) + self.held
+    }
+
+    /// An operation goes through a unit that is empty: it is issued in cycle `issue`, as [`offered`](Self::offered), and its
+    /// result taken in cycle `taken`, not before it is ready. Spares the queue.
+    #[inline]
+    pub fn pass(&mut self, issue: u64, taken: u64) {
+        let own = self.own(issue);
+        self.free = own + u64::from(self.pace.interval);
+        self.hold(own + u64::from(self.pace.latency), taken);
     }
 
     /// The cycle in which the oldest operation is ready, or was: nothing leaves before.
@@ -129,7 +174,7 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
     /// Drops what is in it, as at reset: cycles may then be counted from 0 again.
     pub fn clear(&mut self) {
         self.flight.clear();
-        (self.free, self.held) = (0, 0);
+        (self.free, self.held, self.stop, self.held_before) = (0, 0, 0, 0);
     }
 }
 

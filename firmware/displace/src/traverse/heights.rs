@@ -10,19 +10,20 @@ use crate::pyramid::{MAX_LOG2, Order, Shape};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Field {
     shape: Shape,
-    /// Where each level begins, and the order of its texels.
-    levels: [(u32, Order); MAX_LOG2 as usize + 1],
+    /// The order of the map's texels.
+    order: Order,
+    /// Where each level begins, and how many bits of a texel's place fewer it takes to tell its nodes apart.
+    levels: [(u32, u32); MAX_LOG2 as usize + 1],
     wrap: Wrap,
 }
 
 impl Field {
     /// A pyramid of this shape.
     pub fn new(shape: Shape, wrap: Wrap) -> Self {
-        let mut levels = [(0, Order::of(shape)); MAX_LOG2 as usize + 1];
-        for (level, place) in (0..).zip(&mut levels) {
-            *place = (shape.level_offset(level), Order::of(shape.level(level)));
-        }
-        Self { shape, levels, wrap }
+        let [w, h] = shape.log2();
+        // Two bits a level as long as there are bits of both axes, then one.
+        let level = |level: u32| (shape.level_offset(level), level + level.min(w.min(h)));
+        Self { shape, order: Order::of(shape), levels: core::array::from_fn(|i| level(i as u32)), wrap }
     }
 
     /// Its extent.
@@ -31,21 +32,40 @@ impl Field {
         self.shape
     }
 
+    /// The place of a leaf texel in the map; coordinates wrap.
+    #[inline(always)]
+    pub(super) const fn leaf(&self, leaf: [i32; 2]) -> u32 {
+        self.order.place(leaf[0] as u32, leaf[1] as u32)
+    }
+
+    /// The byte of the pyramid with the height of the node in which `leaf` lies, whose place in the map is `place`; `None` beyond
+    /// the border.
+    #[inline(always)]
+    pub(super) fn node(&self, leaf: [i32; 2], place: u32, level: u32) -> Option<u32> {
+        if self.wrap == Wrap::Border && !self.holds(leaf, level) {
+            return None;
+        }
+        let (offset, bits) = self.levels.get(level as usize)?;
+        Some(offset + (place >> bits))
+    }
+
     /// The byte of the pyramid with the height of the node in which `leaf` lies; `None` beyond the border.
     #[inline]
     pub fn place(&self, leaf: [i32; 2], level: u32) -> Option<u32> {
-        let (offset, order) = self.levels.get(level as usize)?;
-        let [x, y] = leaf.map(|index| (index >> level) as u32);
-        if self.wrap == Wrap::Border && !order.holds(x, y) {
-            return None;
-        }
-        Some(offset + order.place(x, y))
+        self.node(leaf, self.leaf(leaf), level)
+    }
+
+    /// Whether the node in which `leaf` lies is on the map itself, not on a repetition.
+    #[inline]
+    fn holds(&self, leaf: [i32; 2], level: u32) -> bool {
+        let extent = self.shape.level(level).log2();
+        (0..2).all(|axis| (leaf[axis] >> level) as u32 >> extent[axis] == 0)
     }
 
     /// Whether there is a surface at a leaf texel: everywhere with wrap, else on the map only.
     #[inline]
     pub fn lets_hit(&self, leaf: [i32; 2]) -> bool {
-        self.wrap == Wrap::Repeat || Order::of(self.shape).holds(leaf[0] as u32, leaf[1] as u32)
+        self.wrap == Wrap::Repeat || self.holds(leaf, 0)
     }
 }
 
@@ -94,5 +114,31 @@ impl<F: Format> Depths<F> {
     #[inline(always)]
     pub fn of(&self, height: u8) -> F {
         self.0[usize::from(height)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Field;
+    use crate::pyramid::{Order, Shape};
+    use crate::traverse::Wrap;
+
+    /// The bits of a texel's place begin with those of its nodes' places, on both sides of 0.
+    #[test]
+    fn a_node_is_found_from_its_leaf() {
+        for (w, h) in [(0, 0), (3, 3), (1, 4), (5, 2), (0, 3)] {
+            let shape = Shape::new(w, h);
+            let (repeat, border) = (Field::new(shape, Wrap::Repeat), Field::new(shape, Wrap::Border));
+            for level in 0..=shape.root() {
+                let (order, offset) = (Order::of(shape.level(level)), shape.level_offset(level));
+                for (x, y) in (-40..40).flat_map(|y| (-40..40).map(move |x| (x, y))) {
+                    let node = [(x >> level) as u32, (y >> level) as u32];
+                    let expected = offset + order.place(node[0], node[1]);
+                    assert_eq!(repeat.place([x, y], level), Some(expected), "{x} {y} {level}");
+                    let held = order.holds(node[0], node[1]).then_some(expected);
+                    assert_eq!(border.place([x, y], level), held, "{x} {y} {level}");
+                }
+            }
+        }
     }
 }

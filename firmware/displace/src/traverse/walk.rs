@@ -19,6 +19,8 @@ pub struct Walk<F> {
     pub t: F,
     /// The leaf texel it is in; not wrapped.
     pub leaf: [i32; 2],
+    /// The place of that texel in the map.
+    place: u32,
     /// The level of its node.
     pub level: u32,
     /// It has crossed a node (P6).
@@ -59,7 +61,7 @@ pub struct Terrain {
 impl<F: Format> Walk<F> {
     /// That of a ray which is not traversed.
     pub const NOWHERE: Self =
-        Self { t: F::ZERO, leaf: [0; 2], level: 0, crossed: false, stayed: false, steps: 0 };
+        Self { t: F::ZERO, leaf: [0; 2], place: 0, level: 0, crossed: false, stayed: false, steps: 0 };
 
     /// A ray at the top plane, at the root or at its start level. The second mode of Fig. 7 begins here; the first, which
     /// finds the start level, is this call.
@@ -73,7 +75,14 @@ impl<F: Format> Walk<F> {
         } else {
             root
         };
-        Self { t: F::ZERO, leaf: track.texel_at(F::ZERO), level, crossed: false, stayed: false, steps: 0 }
+        let leaf = track.texel_at(F::ZERO);
+        Self { t: F::ZERO, leaf, place: field.leaf(leaf), level, crossed: false, stayed: false, steps: 0 }
+    }
+
+    /// The byte of the pyramid that the next step needs; `None` beyond the border.
+    #[inline(always)]
+    pub fn node(&self, field: &Field) -> Option<u32> {
+        field.node(self.leaf, self.place, self.level)
     }
 
     /// One step. Without heights the node is beyond the border, where nothing is higher than the bottom.
@@ -95,9 +104,12 @@ impl<F: Format> Walk<F> {
             return self.look_around(terrain, heights, up);
         }
         self.t = depth;
-        for axis in 0..2 {
-            self.leaf[axis] = within(landing[axis], node[axis], level);
-        }
+        self.leaf = if node == target {
+            landing
+        } else {
+            [0, 1].map(|axis| within(landing[axis], node[axis], level))
+        };
+        self.place = terrain.field.leaf(self.leaf);
         if self.down(&terrain.policies) { Step::Down } else { Step::Hit }
     }
 
@@ -120,7 +132,7 @@ impl<F: Format> Walk<F> {
         if terrain.policies.siblings
             && !up
             && let Some(heights) = heights
-            && let Some(place) = terrain.field.place(self.leaf, self.level)
+            && let Some(place) = self.node(&terrain.field)
             && let Some(depth) = heights.depth_at(place)
             && !self.t.lt(depth)
         {
@@ -149,9 +161,10 @@ impl<F: Format> Walk<F> {
         if self.t.lt(exit) {
             self.t = exit;
         }
-        let other = 1 - axis;
-        self.leaf[axis] = (boundary[axis] << level) + track.ahead[axis] - 1;
-        self.leaf[other] = within(track.index(other, self.t), node[other], level);
+        let beyond = (boundary[axis] << level) + track.ahead[axis] - 1;
+        let beside = within(track.index(1 - axis, self.t), node[1 - axis], level);
+        self.leaf = if axis == 0 { [beyond, beside] } else { [beside, beyond] };
+        self.place = field.leaf(self.leaf);
         self.crossed = true;
         let crossing = Crossing { node, target, boundary: boundary[axis], stayed: self.stayed };
         let up = policies.ascend.goes_up(policies.coherent, policies.reach, &crossing)
