@@ -13,6 +13,7 @@ use crate::fast::{Agenda, fills};
 use crate::job::RayFaults;
 use crate::outlook::{Shading, Switching};
 use crate::record::Status;
+use crate::slot::Heights;
 use crate::slots::Entrant;
 use crate::traverse::ray::Ray;
 use crate::view::View;
@@ -103,8 +104,8 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
             until = until.min(event);
         }
         let cycles = until - outside.now;
-        let (turned, line) =
-            instance.slots.turns(cycles, held, outside.job, outside.depths, outside.memory, outside.counters);
+        let heights = Heights::of(outside.job, outside.depths, outside.memory);
+        let (turned, line) = instance.slots.turns(cycles, held, outside.job, heights, outside.counters);
         outside.now += turned;
         let Some(line) = line else { return };
         // In the last of these cycles, after the other units.

@@ -19,6 +19,7 @@ use crate::read::{Fetch, Read};
 use crate::record::{Outcome, Status};
 use crate::shade::address::{Addresses, Hit, addresses};
 use crate::sizes::{Caches, MAX_FIFO, Sizes};
+use crate::slot::Heights;
 use crate::slots::{Ended, Entrant, Slots};
 use crate::traverse::ray::Ray;
 use crate::view::View;
@@ -36,9 +37,9 @@ pub struct Instance<F: Format, const LINES: usize> {
     pub(crate) taken: Deque<u64, MAX_FIFO>,
     pub(crate) slots: Slots<F, LINES>,
     pub(crate) fifo1: Deque<Ended<F>, MAX_FIFO>,
-    pub(crate) address: SemiPipeline<Fetch<F>, ADDRESS_DEPTH>,
-    pub(crate) read: Read<F, LINES>,
-    pub(crate) colour: SemiPipeline<Fetch<F>, COLOUR_DEPTH>,
+    pub(crate) address: SemiPipeline<Fetch, ADDRESS_DEPTH>,
+    pub(crate) read: Read<LINES>,
+    pub(crate) colour: SemiPipeline<Fetch, COLOUR_DEPTH>,
 }
 
 impl<F: Format, const LINES: usize> Instance<F, LINES> {
@@ -169,7 +170,8 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     #[inline]
     pub(crate) fn turn(&mut self, outside: &mut Outside<'_, F>) -> bool {
         let Outside { job, depths, memory, counters, .. } = outside;
-        let (_, line) = self.slots.turns(1, false, job, depths, memory, counters);
+        let heights = Heights::of(job, depths, memory);
+        let (_, line) = self.slots.turns(1, false, job, heights, counters);
         if let Some(line) = line {
             self.ask(line, outside);
         }
@@ -222,12 +224,13 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
 
 /// What the address calculation makes of a hit.
 #[inline]
-pub(crate) fn fetch<F: Format>(ended: &Ended<F>, job: &Job<F>) -> Fetch<F> {
+pub(crate) fn fetch<F: Format>(ended: &Ended<F>, job: &Job<F>) -> Fetch {
     let Ray { entry, direction } = ended.ray;
     let hit = Hit { entry, direction, t: ended.t, texel: ended.leaf };
     let Addresses { position, texture, normal } =
         addresses(&hit, job.map.shape, job.texture.shape, job.normals.shape);
-    Fetch { number: ended.number, outcome: Outcome { position, ..unshaded(ended) }, texture, normal }
+    let result = Outcome { position, ..unshaded(ended) }.words();
+    Fetch { number: ended.number, steps: ended.steps, result, texture, normal }
 }
 
 /// The outcome of a ray without position and colour.

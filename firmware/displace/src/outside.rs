@@ -6,7 +6,7 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::{Fault, FaultCode, Job, RayFaults};
 use crate::read::Fetch;
-use crate::record::{Outcome, RESULT_WORDS, Status};
+use crate::record::{self, Outcome, RESULT_WORDS, Status};
 use crate::shade::colour::colour;
 use crate::sizes::MAX_UNITS;
 use crate::slots::STAGES;
@@ -79,9 +79,10 @@ impl<F: Format> Outside<'_, F> {
 
     /// Writes the result of a hit whose texels are known.
     #[inline]
-    pub(crate) fn shaded(&mut self, fetch: &Fetch<F>) {
+    pub(crate) fn shaded(&mut self, fetch: &Fetch) {
         let colour = colour(&self.job.light, fetch.texture, fetch.normal);
-        self.result(fetch.number, &Outcome { colour, ..fetch.outcome });
+        self.counters.hits += 1;
+        self.write(fetch.number, fetch.steps, record::with_colour(fetch.result, colour));
     }
 
     /// Writes a result.
@@ -105,17 +106,21 @@ impl<F: Format> Outside<'_, F> {
                 Some(FaultCode::Watchdog)
             }
         };
-        counters.max_steps = counters.max_steps.max(u64::from(outcome.steps));
-        counters.result_bytes += u64::from(RESULT_WORDS) * 4;
-        if let Some(words) = self.job.results.write::<{ RESULT_WORDS as usize }>(self.memory, number, 0) {
-            *words = outcome.words();
-        }
-        *self.done += 1;
+        self.write(number, outcome.steps, outcome.words());
         if let Some(code) = fault
             && self.job.ray_faults == RayFaults::Stop
             && self.fault.is_none()
         {
             self.fault = Some(Fault { code, address: self.job.results.address(number) });
         }
+    }
+    #[inline]
+    fn write(&mut self, number: u32, steps: u32, result: [u32; RESULT_WORDS as usize]) {
+        self.counters.max_steps = self.counters.max_steps.max(u64::from(steps));
+        self.counters.result_bytes += u64::from(RESULT_WORDS) * 4;
+        if let Some(words) = self.job.results.write(self.memory, number, 0) {
+            *words = result;
+        }
+        *self.done += 1;
     }
 }

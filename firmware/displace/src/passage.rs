@@ -52,7 +52,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         idle: u64,
         end: u64,
         outside: &mut Outside<'_, F>,
-    ) -> Option<(u64, Fetch<F>)> {
+    ) -> Option<(u64, Fetch)> {
         if let Some(ready) = self.address.next_event() {
             let cycle = idle.max(ready);
             outside.counters.address_stalls += cycle.min(end).saturating_sub(ready.max(from));
@@ -80,7 +80,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
 
     /// The next hit leaves FIFO #1.
     #[inline]
-    fn next_hit(&mut self, outside: &mut Outside<'_, F>) -> Option<Fetch<F>> {
+    fn next_hit(&mut self, outside: &mut Outside<'_, F>) -> Option<Fetch> {
         let ended = self.fifo1.pop_front()?;
         outside.counters.address_busy += u64::from(self.address.pace().interval);
         Some(fetch(&ended, outside.job))
@@ -111,15 +111,14 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
             return Passed::Held(end);
         }
         self.colour_results(cycle + 1, outside);
-        if let Some(fetch) = self.read.take() {
-            outside.counters.colour_busy += u64::from(self.colour.pace().interval);
-            let result = self.colour.result_of(cycle);
-            if self.colour.is_empty() && result < end {
-                self.colour.pass(cycle, result);
-                outside.shaded(&fetch);
-            } else {
-                let _ = self.colour.issue(cycle, fetch);
-            }
+        outside.counters.colour_busy += u64::from(self.colour.pace().interval);
+        let result = self.colour.result_of(cycle);
+        if self.colour.is_empty() && result < end {
+            self.colour.pass(cycle, result);
+            outside.shaded(self.read.done());
+            let _ = self.read.take();
+        } else if let Some(fetch) = self.read.take() {
+            let _ = self.colour.issue(cycle, fetch);
         }
         Passed::Read(cycle)
     }

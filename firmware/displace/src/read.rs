@@ -7,16 +7,18 @@ use lucerna_fabric::cache::Tags;
 use lucerna_softfloat::Format;
 
 use crate::counters::Counters;
-use crate::job::Job;
-use crate::record::{Outcome, Status};
+use crate::job::{Job, Map};
+use crate::record::RESULT_WORDS;
 
 /// A hit on its way to its colour.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Fetch<F> {
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Fetch {
     /// The ray's number in the job.
     pub number: u32,
+    /// Its steps.
+    pub steps: u32,
     /// All of its result but the colour.
-    pub outcome: Outcome<F>,
+    pub result: [u32; RESULT_WORDS as usize],
     /// Number of the texture's word before the read, the word after it.
     pub texture: u32,
     /// Of the normal map's.
@@ -38,9 +40,9 @@ enum Next {
 
 /// The read unit with its cache.
 #[derive(Clone, Debug)]
-pub struct Read<F, const LINES: usize> {
+pub struct Read<const LINES: usize> {
     next: Next,
-    fetch: Fetch<F>,
+    fetch: Fetch,
     /// The line that is waited for.
     waiting: Option<u32>,
     /// It came in this cycle.
@@ -49,12 +51,10 @@ pub struct Read<F, const LINES: usize> {
     pub cache: Tags<LINES>,
 }
 
-impl<F: Format, const LINES: usize> Read<F, LINES> {
+impl<const LINES: usize> Read<LINES> {
     /// An idle unit.
     pub fn new(cache: Tags<LINES>) -> Self {
-        let fetch =
-            Fetch { number: 0, outcome: Outcome::untraversed(Status::Miss, 0), texture: 0, normal: 0 };
-        Self { next: Next::Idle, fetch, waiting: None, served: false, cache }
+        Self { next: Next::Idle, fetch: Fetch::default(), waiting: None, served: false, cache }
     }
 
     /// Drops what it does and empties the cache.
@@ -85,7 +85,7 @@ impl<F: Format, const LINES: usize> Read<F, LINES> {
 
     /// Gives both texels away.
     #[inline]
-    pub fn take(&mut self) -> Option<Fetch<F>> {
+    pub fn take(&mut self) -> Option<Fetch> {
         if !self.is_done() {
             return None;
         }
@@ -93,9 +93,15 @@ impl<F: Format, const LINES: usize> Read<F, LINES> {
         Some(self.fetch)
     }
 
+    /// The hit whose texels are both there.
+    #[inline]
+    pub(crate) const fn done(&self) -> &Fetch {
+        &self.fetch
+    }
+
     /// Takes a hit; its first access is in this cycle.
     #[inline]
-    pub fn begin(&mut self, fetch: Fetch<F>) {
+    pub fn begin(&mut self, fetch: Fetch) {
         self.fetch = fetch;
         self.next = Next::Texture;
     }
@@ -112,30 +118,50 @@ impl<F: Format, const LINES: usize> Read<F, LINES> {
 
     /// This cycle's access, if there is one; gives the line that is to be asked for.
     #[inline]
-    pub fn access(&mut self, job: &Job<F>, memory: &[u32], counters: &mut Counters) -> Option<u32> {
-        let (map, word) = match self.next {
-            Next::Texture => (&job.texture, &mut self.fetch.texture),
-            Next::Normal => (&job.normals, &mut self.fetch.normal),
-            Next::Idle | Next::Done => return None,
-        };
+    pub fn access<F: Format>(
+        &mut self,
+        job: &Job<F>,
+        memory: &[u32],
+        counters: &mut Counters,
+    ) -> Option<u32> {
         if self.waiting.is_some() {
             counters.read_stalls += 1;
             return None;
         }
+        match self.next {
+            Next::Idle | Next::Done => None,
+            Next::Texture => match self.look(&job.texture, self.fetch.texture, memory, counters) {
+                Ok(texel) => {
+                    (self.fetch.texture, self.next) = (texel, Next::Normal);
+                    None
+                }
+                Err(line) => Some(line),
+            },
+            Next::Normal => match self.look(&job.normals, self.fetch.normal, memory, counters) {
+                Ok(texel) => {
+                    (self.fetch.normal, self.next) = (texel, Next::Done);
+                    None
+                }
+                Err(line) => Some(line),
+            },
+        }
+    }
+
+    /// Reads a map's word, or begins to wait for its line and gives that.
+    #[inline]
+    fn look(&mut self, map: &Map, word: u32, memory: &[u32], counters: &mut Counters) -> Result<u32, u32> {
         counters.read_busy += 1;
         if !core::mem::take(&mut self.served) {
-            let address = map.words.address(*word);
+            let address = map.words.address(word);
             counters.texture_accesses += 1;
             if !self.cache.lookup(address) {
                 counters.texture_misses += 1;
                 let line = self.cache.line(address);
                 self.waiting = Some(line);
-                return Some(line);
+                return Err(line);
             }
             counters.texture_hits += 1;
         }
-        *word = map.words.read::<1>(memory, *word, 0).map_or(0, |words| words[0]);
-        self.next = if self.next == Next::Texture { Next::Normal } else { Next::Done };
-        None
+        Ok(map.words.read::<1>(memory, word, 0).map_or(0, |words| words[0]))
     }
 }

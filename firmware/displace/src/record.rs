@@ -70,3 +70,13 @@ impl<F: Format> Outcome<F> {
         [self.texel[0] as u32, self.texel[1] as u32, self.t.to_bits(), info, self.colour, u, v, 0]
     }
 }
+
+/// The result record of a hit, with its colour.
+#[inline]
+pub(crate) const fn with_colour(
+    mut result: [u32; RESULT_WORDS as usize],
+    colour: u32,
+) -> [u32; RESULT_WORDS as usize] {
+    result[4] = colour;
+    result
+}

@@ -44,10 +44,26 @@ pub(crate) struct Slot<F: Format> {
 #[derive(Clone, Copy)]
 pub(crate) struct Heights<'a, F> {
     /// The pyramid's words.
-    pub words: &'a [[u32; 1]],
+    words: &'a [u32],
     /// Byte address of the first.
-    pub base: u32,
-    pub depths: &'a Depths<F>,
+    base: u32,
+    depths: &'a Depths<F>,
+}
+
+impl<'a, F: Format> Heights<'a, F> {
+    /// Those of a job.
+    #[inline]
+    pub fn of(job: &Job<F>, depths: &'a Depths<F>, memory: &'a [u32]) -> Self {
+        let map = &job.map.words;
+        Self { words: map.records::<1>(memory).as_flattened(), base: map.address(0), depths }
+    }
+
+    /// The word with a byte of the pyramid.
+    #[inline(always)]
+    fn at(&self, place: u32) -> Fetched<'a, F> {
+        let word = self.words.get(place as usize / 4).copied().unwrap_or_default();
+        Fetched { place, word, depths: self.depths }
+    }
 }
 
 /// What a turn came to.
@@ -61,50 +77,42 @@ pub(crate) enum Turn {
 }
 
 impl<F: Format> Slot<F> {
-    /// A turn: a step, if the height for it is there.
+    /// A turn: a step, if the height for it is there. Steps of which the cache had the height are counted in `looked` only.
     #[inline(always)]
     pub fn turn<const LINES: usize>(
         &mut self,
         job: &Job<F>,
         heights: &Heights<'_, F>,
         cache: &mut Tags<LINES>,
+        looked: &mut u64,
         counters: &mut Counters,
     ) -> Turn {
-        let served = self.state == State::Served;
-        if self.state != State::Walk && !served {
-            self.other_turn(job, counters);
-            return Turn::On;
-        }
-        let mut fetched = None;
-        if let Some(place) = self.walk.node(&job.terrain.field) {
-            if served {
-                counters.height_forwards += 1;
-            } else {
-                counters.height_accesses += 1;
-                let address = heights.base + place;
-                if !cache.lookup(address) {
-                    return self.miss(cache.line(address), counters);
-                }
-                counters.height_hits += 1;
+        if self.state == State::Walk
+            && let Some(place) = self.walk.node(&job.terrain.field)
+        {
+            let address = heights.base + place;
+            if !cache.lookup(address) {
+                return self.miss(cache.line(address), counters);
             }
-            let [word] = heights.words.get(place as usize / 4).copied().unwrap_or_default();
-            fetched = Some(Fetched { place, word, depths: heights.depths });
+            *looked += 1;
+            return self.step(job, Some(heights.at(place)), counters);
         }
-        self.step(job, fetched, counters)
+        self.other_turn(job, heights, counters)
     }
 
     /// The slot waits for a line.
     #[cold]
     fn miss(&mut self, line: u32, counters: &mut Counters) -> Turn {
         self.state = State::Wait { line };
+        counters.height_accesses += 1;
         counters.height_misses += 1;
         counters.traverse_waits += 1;
         Turn::Missed { line }
     }
 
-    /// A turn that is no step.
+    /// A turn that is no step, or one whose height did not come from the cache.
     #[inline(never)]
-    fn other_turn(&mut self, job: &Job<F>, counters: &mut Counters) {
+    fn other_turn(&mut self, job: &Job<F>, heights: &Heights<'_, F>, counters: &mut Counters) -> Turn {
         match self.state {
             State::Empty => counters.traverse_bubbles += 1,
             State::Start => {
@@ -117,17 +125,22 @@ impl<F: Format> Slot<F> {
             }
             State::Wait { .. } => counters.traverse_waits += 1,
             State::Ended(_) => counters.traverse_stalls += 1,
-            // These have a height.
-            State::Walk | State::Served => {}
+            // The line has come, or the node is beyond the border.
+            State::Walk | State::Served => {
+                let place = self.walk.node(&job.terrain.field);
+                counters.height_forwards += u64::from(place.is_some());
+                counters.traverse_busy += 1;
+                counters.steps += 1;
+                self.state = State::Walk;
+                return self.step(job, place.map(|place| heights.at(place)), counters);
+            }
         }
+        Turn::On
     }
 
     /// A step, with the heights that the cache delivered.
     #[inline(always)]
     fn step(&mut self, job: &Job<F>, fetched: Option<Fetched<'_, F>>, counters: &mut Counters) -> Turn {
-        counters.traverse_busy += 1;
-        counters.steps += 1;
-        self.state = State::Walk;
         match self.walk.step(&self.track, &job.terrain, fetched.as_ref()) {
             Step::Down => counters.level_downs += 1,
             Step::Cross { up } => {

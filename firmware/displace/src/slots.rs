@@ -14,7 +14,6 @@ use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
 use crate::slot::{Heights, Slot, State, Turn};
-use crate::traverse::heights::Depths;
 use crate::traverse::ray::{Ray, Track};
 use crate::traverse::walk::Walk;
 
@@ -172,17 +171,14 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
     /// Turns by up to `cycles` stages, at least one, until something may leave or enter in stage 1; a hit does not when hits are
     /// `held`. In each the slot in stage 2 has its turn. Gives how often it turned, and the line that is to be asked for if the last
     /// turn was the first miss of it.
-    pub fn turns(
+    pub(crate) fn turns(
         &mut self,
         cycles: u64,
         held: bool,
         job: &Job<F>,
-        depths: &Depths<F>,
-        memory: &[u32],
+        heights: Heights<'_, F>,
         counters: &mut Counters,
     ) -> (u64, Option<u32>) {
-        let heights =
-            Heights { words: job.map.words.records(memory), base: job.map.words.address(0), depths };
         let mut turned = 0;
         loop {
             // A slot that stops in one of these turns is in stage 1 after 14 more.
@@ -224,12 +220,13 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         let first = if *entry == 0 { STAGES - 1 } else { *entry - 1 };
         let mut turned = 0;
         let mut missed = None;
+        let mut looked = 0;
         // The slots up to the last, and on from slot 0.
         'run: for part in [first..STAGES.min(first + turns), 0..(first + turns).saturating_sub(STAGES)] {
             let mut bit = 1 << part.start;
             for slot in slots.get_mut(part).unwrap_or_default() {
                 turned += 1;
-                match slot.turn(job, heights, cache, counters) {
+                match slot.turn(job, heights, cache, &mut looked, counters) {
                     Turn::On => {}
                     Turn::Ended { hit } => {
                         *done |= bit;
@@ -244,6 +241,10 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
             }
         }
         *entry = (*entry + turned) % STAGES;
+        counters.traverse_busy += looked;
+        counters.steps += looked;
+        counters.height_accesses += looked;
+        counters.height_hits += looked;
         (turned, missed)
     }
 

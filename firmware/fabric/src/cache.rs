@@ -150,6 +150,12 @@ impl<const LINES: usize> Tags<LINES> {
     /// All ways of a set.
     fn search(&mut self, first: usize, tag: Tag) -> bool {
         let set = self.set(first);
+        if let [last, held, ..] = set
+            && *held == tag
+        {
+            core::mem::swap(last, held);
+            return true;
+        }
         let found = set.contains(&tag);
         if found {
             to_front(set, tag);

@@ -17,8 +17,9 @@ pub trait Line<F>: Copy + core::fmt::Debug + PartialEq {
     /// Its index on one axis, 0 or 1, of the grid itself.
     fn index(&self, axis: usize, t: F) -> i32;
 
-    /// The `t` at which it meets an edge of each axis: `(edge · 2^-log2 − point) / direction`, all three rounded.
-    fn meets(&self, edge: [i32; 2]) -> [F; 2];
+    /// Which of two edges, one across each axis, it meets first, and at which `t`: the axis, x when it meets both at once, and
+    /// `(edge · 2^-log2 − point) / direction`, all three rounded. It never meets an edge across an axis on which its direction is 0.
+    fn exit(&self, edge: [i32; 2]) -> Option<(usize, F)>;
 }
 
 /// A line that does each operation when it is asked: what any other implementation has to agree with, to the bit.
@@ -50,8 +51,18 @@ impl<F: Format> Line<F> for PlainLine<F> {
         self.at(axis, t).floor_scaled(self.log2[axis].into())
     }
     #[inline]
-    fn meets(&self, edge: [i32; 2]) -> [F; 2] {
+    fn exit(&self, edge: [i32; 2]) -> Option<(usize, F)> {
         let Self { point, direction, log2 } = self;
-        [0, 1].map(|axis| F::from_scaled(edge[axis], log2[axis].into()).sub(point[axis]).div(direction[axis]))
+        let meets =
+            |axis: usize| F::from_scaled(edge[axis], log2[axis].into()).sub(point[axis]).div(direction[axis]);
+        match direction.map(|direction| !direction.eq(F::ZERO)) {
+            [true, true] => {
+                let [x, y] = [meets(0), meets(1)];
+                Some(if y.lt(x) { (1, y) } else { (0, x) })
+            }
+            [true, false] => Some((0, meets(0))),
+            [false, true] => Some((1, meets(1))),
+            [false, false] => None,
+        }
     }
 }

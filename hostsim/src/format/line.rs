@@ -58,8 +58,8 @@ impl Line24 {
 
     #[cold]
     #[inline(never)]
-    fn plain_meets(&self, edge: [i32; 2]) -> [HostF24; 2] {
-        self.plain().meets(edge)
+    fn plain_exit(&self, edge: [i32; 2]) -> Option<(usize, HostF24)> {
+        self.plain().exit(edge)
     }
 
     /// An index, and whether it is certain.
@@ -79,10 +79,9 @@ impl Line<HostF24> for Line24 {
             |numbers: [HostF24; 2]| [0, 1].map(|axis| numbers[axis].0 * power_of_two(log2[axis] as i32));
         let (start, way) = (scaled(point), scaled(direction));
         // Then no sum of an edge and the point has more than 53 bits, and no difference or quotient is a subnormal F24 number.
-        let fit = |x: f64, least: f64| x == 0.0 || x.abs() >= least;
         let is_tame = |axis: usize| {
-            fit(start[axis], power_of_two(-19))
-                && fit(way[axis], power_of_two(-24))
+            (start[axis] == 0.0 || start[axis].abs() >= power_of_two(-19))
+                && way[axis].abs() >= power_of_two(-24)
                 && start[axis].abs() + way[axis].abs() < f64::from(REACH)
                 && log2[axis] <= 16
         };
@@ -115,13 +114,14 @@ impl Line<HostF24> for Line24 {
     }
 
     #[inline(always)]
-    fn meets(&self, edge: [i32; 2]) -> [HostF24; 2] {
+    fn exit(&self, edge: [i32; 2]) -> Option<(usize, HostF24)> {
         let near = edge.map(|edge| edge.wrapping_add(self.reach as i32) as u32);
         if (near[0] < 2 * self.reach) & (near[1] < 2 * self.reach) {
-            return [0, 1].map(|axis| {
-                HostF24(nearest(nearest(f64::from(edge[axis]) - self.start[axis]) * self.pace[axis]))
-            });
+            let [x, y] = [0, 1]
+                .map(|axis| nearest(nearest(f64::from(edge[axis]) - self.start[axis]) * self.pace[axis]));
+            // The lesser of two numbers, and not a branch: which one it is cannot be predicted.
+            return Some((usize::from(y < x), HostF24(if y < x { y } else { x })));
         }
-        self.plain_meets(edge)
+        self.plain_exit(edge)
     }
 }

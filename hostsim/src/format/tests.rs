@@ -47,8 +47,14 @@ fn lines<H: Format, S: Format>(point: [u32; 2], direction: [u32; 2], t: u32) -> 
             prop_assert_eq!(host.index(axis, host_t), soft.index(axis, soft_t), "{:08x} {:x?}", t, soft);
         }
         for edge in [edge, cells.0, [cells.0[0] + 1, cells.0[1] - 1]] {
-            let meets = host.meets(edge).map(H::to_bits);
-            prop_assert_eq!(meets, soft.meets(edge).map(S::to_bits), "{:?} {:x?}", edge, soft);
+            let exit = host.exit(edge).map(|(axis, t)| (axis, t.to_bits()));
+            prop_assert_eq!(
+                exit,
+                soft.exit(edge).map(|(axis, t)| (axis, t.to_bits())),
+                "{:?} {:x?}",
+                edge,
+                soft
+            );
         }
     }
     Ok(())

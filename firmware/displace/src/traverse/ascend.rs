@@ -62,7 +62,8 @@ impl Ascend {
         match self {
             Self::Never => false,
             Self::Parity => crossing.is_parent_s(),
-            Self::Selective => crossing.is_parent_s() && !crossing.comes_down_within(reach),
+            // Both at once: neither can be predicted.
+            Self::Selective => crossing.is_parent_s() & !crossing.comes_down_within(reach),
             Self::Coherent => crossing.stayed && (coherent != Coherent::Parity || crossing.is_parent_s()),
         }
     }

@@ -39,8 +39,6 @@ pub struct Track<F: Format> {
     origin: [i32; 2],
     /// The ray from there.
     line: F::Line,
-    /// Whether it goes on at all on an axis.
-    across: [bool; 2],
     /// On which side of a node it leaves it: 1 on the upper, 0 on the lower.
     pub(super) ahead: [i32; 2],
     is_in_reach: bool,
@@ -54,7 +52,6 @@ impl<F: Format> Track<F> {
         Self {
             origin,
             line: F::Line::new(offset, direction, log2),
-            across: direction.map(|direction| !direction.eq(F::ZERO)),
             ahead: direction.map(|direction| i32::from(F::ZERO.lt(direction))),
             is_in_reach: origin.iter().all(|index| index.abs() < REACH) && offset.iter().all(is_number),
         }
@@ -96,12 +93,6 @@ impl<F: Format> Track<F> {
     /// (P12); x goes first (P13). There is none when it goes straight down.
     #[inline(always)]
     pub(super) fn exit(&self, edge: [i32; 2]) -> Option<(usize, F)> {
-        let [x, y] = self.line.meets([edge[0] - self.origin[0], edge[1] - self.origin[1]]);
-        let [across_x, across_y] = self.across;
-        if !(across_x | across_y) {
-            return None;
-        }
-        let second = !across_x | across_y & y.lt(x);
-        Some((usize::from(second), if second { y } else { x }))
+        self.line.exit([edge[0] - self.origin[0], edge[1] - self.origin[1]])
     }
 }

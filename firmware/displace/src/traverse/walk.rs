@@ -168,7 +168,7 @@ impl<F: Format> Walk<F> {
         self.crossed = true;
         let crossing = Crossing { node, target, boundary: boundary[axis], stayed: self.stayed };
         let up = policies.ascend.goes_up(policies.coherent, policies.reach, &crossing)
-            && level < field.shape().root();
+            & (level < field.shape().root());
         self.stayed = !up;
         self.level += u32::from(up);
         Some(up)
