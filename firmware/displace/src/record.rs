@@ -18,9 +18,10 @@ pub struct RayRecord<F> {
 
 impl<F: Format> RayRecord<F> {
     /// The record's words.
+    #[inline]
     pub fn of(words: &[u32; RAY_WORDS as usize]) -> Self {
-        let [u, v, x, y, z, ..] = words.map(F::from_bits);
-        Self { entry: [u, v], view: [x, y, z] }
+        let [u, v, x, y, z, ..] = *words;
+        Self { entry: [u, v].map(F::from_bits), view: [x, y, z].map(F::from_bits) }
     }
 }
 
@@ -64,6 +65,7 @@ impl<F: Format> Outcome<F> {
     }
 
     /// The record: texel x, texel y, t, `steps | level << 16 | status << 24`, colour, hit u, hit v, 0.
+    #[inline]
     pub fn words(&self) -> [u32; RESULT_WORDS as usize] {
         let info = self.steps & 0xFFFF | self.level << 16 | (self.status as u32) << 24;
         let [u, v] = self.position.map(F::to_bits);

@@ -67,6 +67,7 @@ impl<'a, F: Format> Heights<'a, F> {
 }
 
 /// What a turn came to.
+#[derive(Clone, Copy)]
 pub(crate) enum Turn {
     /// The slot goes on as it is, or the ray in it.
     On,
@@ -131,16 +132,17 @@ impl<F: Format> Slot<F> {
                 counters.height_forwards += u64::from(place.is_some());
                 counters.traverse_busy += 1;
                 counters.steps += 1;
-                self.state = State::Walk;
-                return self.step(job, place.map(|place| heights.at(place)), counters);
+                let fetched = place.map(|place| heights.at(place));
+                return self.step(job, fetched, counters);
             }
         }
         Turn::On
     }
 
-    /// A step, with the heights that the cache delivered.
+    /// A step, with the heights that the cache delivered; its turn and step are counted elsewhere.
     #[inline(always)]
     fn step(&mut self, job: &Job<F>, fetched: Option<Fetched<'_, F>>, counters: &mut Counters) -> Turn {
+        self.state = State::Walk;
         match self.walk.step(&self.track, &job.terrain, fetched.as_ref()) {
             Step::Down => counters.level_downs += 1,
             Step::Cross { up } => {

@@ -179,73 +179,43 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         heights: Heights<'_, F>,
         counters: &mut Counters,
     ) -> (u64, Option<u32>) {
-        let mut turned = 0;
-        loop {
-            // A slot that stops in one of these turns is in stage 1 after 14 more.
-            let most = (cycles - turned).min(STAGES as u64 - 1) as usize;
-            let run = most.min(self.clear_turns(held));
-            let (done, line) = self.run(run, job, &heights, counters);
-            turned += done as u64;
-            let first = line.filter(|line| self.waiting_for(*line) == 1);
-            if first.is_some() || turned >= cycles || self.stops(held) >> self.entry & 1 == 1 {
-                return (turned, first);
+        let (mut turned, mut looked) = (0, 0);
+        let mut stops = self.stops(held);
+        let mut stage2 = if self.entry == 0 { STAGES - 1 } else { self.entry - 1 };
+        let first = loop {
+            let turn = self.slots[stage2].turn(job, &heights, &mut self.cache, &mut looked, counters);
+            let slot = stage2;
+            stage2 = self.entry;
+            self.entry = next(stage2);
+            turned += 1;
+            match turn {
+                Turn::On => {}
+                Turn::Ended { hit } => {
+                    self.done |= 1 << slot;
+                    self.hits |= u32::from(hit) << slot;
+                    stops = self.stops(held);
+                }
+                Turn::Missed { line } => {
+                    if self.waiting_for(line) == 1 {
+                        break Some(line);
+                    }
+                }
             }
-        }
+            if (turned >= cycles) | (stops >> self.entry & 1 == 1) {
+                break None;
+            }
+        };
+        counters.traverse_busy += looked;
+        counters.steps += looked;
+        counters.height_accesses += looked;
+        counters.height_hits += looked;
+        (turned, first)
     }
 
     /// Slots that stop the ring when they are in stage 1.
     #[inline]
     const fn stops(&self, held: bool) -> u32 {
         if held { self.done & !self.hits } else { self.done }
-    }
-
-    /// After how many turns the next of them is there.
-    #[inline]
-    fn clear_turns(&self, held: bool) -> usize {
-        let stops = self.stops(held);
-        let after = next(self.entry);
-        (stops >> after | stops << (STAGES - after)).trailing_zeros() as usize + 1
-    }
-
-    /// `turns` turns, or up to one in which a slot begins to wait; gives how many, and for which line.
-    #[inline]
-    fn run(
-        &mut self,
-        turns: usize,
-        job: &Job<F>,
-        heights: &Heights<'_, F>,
-        counters: &mut Counters,
-    ) -> (usize, Option<u32>) {
-        let Self { slots, entry, done, hits, cache, .. } = self;
-        let first = if *entry == 0 { STAGES - 1 } else { *entry - 1 };
-        let mut turned = 0;
-        let mut missed = None;
-        let mut looked = 0;
-        // The slots up to the last, and on from slot 0.
-        'run: for part in [first..STAGES.min(first + turns), 0..(first + turns).saturating_sub(STAGES)] {
-            let mut bit = 1 << part.start;
-            for slot in slots.get_mut(part).unwrap_or_default() {
-                turned += 1;
-                match slot.turn(job, heights, cache, &mut looked, counters) {
-                    Turn::On => {}
-                    Turn::Ended { hit } => {
-                        *done |= bit;
-                        *hits |= if hit { bit } else { 0 };
-                    }
-                    Turn::Missed { line } => {
-                        missed = Some(line);
-                        break 'run;
-                    }
-                }
-                bit <<= 1;
-            }
-        }
-        *entry = (*entry + turned) % STAGES;
-        counters.traverse_busy += looked;
-        counters.steps += looked;
-        counters.height_accesses += looked;
-        counters.height_hits += looked;
-        (turned, missed)
     }
 
     fn waiting_for(&self, line: u32) -> usize {

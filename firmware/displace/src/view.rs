@@ -39,7 +39,7 @@ pub fn list<F: Format>(tbn: &[[F; 3]; 3], ray: &RayRecord<F>) -> View<F> {
 pub fn raster<F: Format>(tbn: &[[F; 3]; 3], camera: &Raster<F>, column: u32, row: u32) -> View<F> {
     let Some(direction) = descent(tbn, pixel(camera, column, row)) else { return View::Miss };
     let [u, v, height] = camera.eye;
-    let entry = [u.add(direction[0].mul(height)), v.add(direction[1].mul(height))];
+    let entry = F::along([u, v], direction, height);
     // An extent of 0 has no end, nor a beginning.
     let inside = |p: F, extent: F| extent.eq(F::ZERO) || (F::ZERO.le(p) && p.lt(extent));
     if inside(entry[0], camera.extent[0]) && inside(entry[1], camera.extent[1]) {
@@ -63,16 +63,14 @@ pub fn pixel<F: Format>(camera: &Raster<F>, column: u32, row: u32) -> [F; 3] {
 /// number's class to tell, no comparator.
 #[inline]
 fn descent<F: Format>(tbn: &[[F; 3]; 3], view: [F; 3]) -> Option<[F; 2]> {
-    let z = dot(&tbn[2], &view);
+    let [tangent, bitangent, normal] = tbn;
+    let [z] = F::dots([normal], &view);
+    if !z.lt(F::ZERO) {
+        return None;
+    }
     // Of a number that is not 0 this flips the sign bit and nothing else.
     let down = F::ZERO.sub(z);
-    z.lt(F::ZERO).then(|| [dot(&tbn[0], &view).div(down), dot(&tbn[1], &view).div(down)])
-}
-
-/// Three multipliers and the 3-input adder.
-#[inline]
-pub(crate) fn dot<F: Format>(a: &[F; 3], b: &[F; 3]) -> F {
-    a[0].mul(b[0]).add(a[1].mul(b[1])).add(a[2].mul(b[2]))
+    Some(F::dots([tangent, bitangent], &view).map(|sideways| sideways.div(down)))
 }
 
 #[cfg(test)]

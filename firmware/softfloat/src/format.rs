@@ -98,6 +98,25 @@ pub trait Format: Copy + core::fmt::Debug + PartialEq + 'static {
     fn from_scaled(integer: i32, log2: u32) -> Self {
         Self::from_f32(integer as f32 * power_of_two(-(log2 as i32)))
     }
+    /// `(row[0] · with[0] + row[1] · with[1]) + row[2] · with[2]` of each row, every product and sum rounded.
+    #[inline]
+    #[must_use]
+    fn dots<const N: usize>(rows: [&[Self; 3]; N], with: &[Self; 3]) -> [Self; N] {
+        rows.map(|row| row[0].mul(with[0]).add(row[1].mul(with[1])).add(row[2].mul(with[2])))
+    }
+    /// `point + direction · t` on both axes, product and sum rounded.
+    #[inline]
+    #[must_use]
+    fn along(point: [Self; 2], direction: [Self; 2], t: Self) -> [Self; 2] {
+        [0, 1].map(|axis| point[axis].add(direction[axis].mul(t)))
+    }
+    /// The nearest byte to `byte · self`, halves up, after the product has been rounded to the format; 0 for a NaN.
+    #[inline]
+    #[must_use]
+    fn times_byte(self, byte: u8) -> u8 {
+        let twice = Self::from_scaled(byte.into(), 0).mul(self).floor_scaled(1);
+        ((twice + 1) >> 1).clamp(0, 0xFF) as u8
+    }
 }
 
 /// The limit of [`Format::floor_scaled`], to which every integer is an f32.

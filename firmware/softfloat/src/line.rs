@@ -9,6 +9,24 @@ pub trait Line<F>: Copy + core::fmt::Debug + PartialEq {
     /// The line; `log2` of either axis is at most 31.
     fn new(point: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self;
 
+    /// The line as seen from an edge of the point's cell on each axis, the one nearer to 0, and the indices of both edges. There
+    /// is none if the point is no number, or 2^24 cells or more from the origin.
+    #[inline]
+    #[must_use]
+    fn from_edge(point: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Option<([i32; 2], Self)>
+    where
+        F: Format,
+    {
+        // An edge that is not the point's own has the point's sign and no more digits, so the difference is exact.
+        let edge = [0, 1].map(|axis| {
+            let (at, below) = (point[axis], point[axis].floor_scaled(log2[axis]));
+            below + i32::from(at.lt(F::ZERO) && F::from_scaled(below, log2[axis]).lt(at))
+        });
+        let offset = [0, 1].map(|axis| point[axis].sub(F::from_scaled(edge[axis], log2[axis])));
+        let is_near = |axis: usize| edge[axis].abs() < 1 << 24 && Format::eq(offset[axis], offset[axis]);
+        (is_near(0) && is_near(1)).then(|| (edge, Self::new(offset, direction, log2)))
+    }
+
     /// The cell at `t`, which is from 0 to 1, of a grid that is `1 << finer` times finer:
     /// `⌊(point + direction · t) · 2^(log2 + finer)⌋`, product and sum each rounded to the format, clipped as
     /// [`floor_scaled`](Format::floor_scaled).

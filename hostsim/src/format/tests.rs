@@ -1,7 +1,7 @@
 //! Are the host's numbers the soft ones, to the bit?
 
 use super::*;
-use lucerna_softfloat::Line;
+use lucerna_softfloat::{F24, Line};
 use proptest::prelude::*;
 
 /// Bits with all exponents, and the special values more often than chance has them.
@@ -32,6 +32,28 @@ fn same<H: Format, S: Format>(a: u32, b: u32) -> Result<(), TestCaseError> {
     lines::<H, S>([a, b], [b, b], a)
 }
 
+/// The methods that are more than an operation.
+fn formulas<H: Format, S: Format>(numbers: [u32; 8]) -> Result<(), TestCaseError> {
+    fn dots<F: Format>([a, b, c, d, e, f, g, h]: [u32; 8]) -> [u32; 8] {
+        let (one, two, with) =
+            ([a, b, c].map(F::from_bits), [d, e, f].map(F::from_bits), [g, h, c].map(F::from_bits));
+        let ([x], [y, z]) = (F::dots([&one], &two), F::dots([&one, &with], &with));
+        let [u, v] = F::along([one[0], two[0]], [one[1], two[1]], with[0]);
+        let bytes = [1, 2, 100, 255].map(|byte| with[0].times_byte(byte));
+        let [r, s] = [x, y].map(|x| x.times_byte(c as u8).into());
+        [x, y, z, u, v]
+            .map(F::to_bits)
+            .iter()
+            .copied()
+            .chain([u32::from_le_bytes(bytes), r, s])
+            .collect::<Vec<_>>()
+            .try_into()
+            .unwrap()
+    }
+    prop_assert_eq!(dots::<H>(numbers), dots::<S>(numbers), "{:x?}", numbers);
+    Ok(())
+}
+
 /// What crossings and landings of rays are found by.
 fn lines<H: Format, S: Format>(point: [u32; 2], direction: [u32; 2], t: u32) -> Result<(), TestCaseError> {
     let from_0_to_1 = S::ZERO.le(S::from_bits(t)) && S::from_bits(t).le(S::ONE);
@@ -41,6 +63,17 @@ fn lines<H: Format, S: Format>(point: [u32; 2], direction: [u32; 2], t: u32) -> 
     for (log2, edge) in [([0, 12], small), ([8, 8], [small[0]; 2]), ([11, 3], [t as i32, 1 << 17])] {
         let host = H::Line::new(point.map(H::from_bits), direction.map(H::from_bits), log2);
         let soft = S::Line::new(point.map(S::from_bits), direction.map(S::from_bits), log2);
+        let (from_host, from_soft) = (
+            H::Line::from_edge(point.map(H::from_bits), direction.map(H::from_bits), log2),
+            S::Line::from_edge(point.map(S::from_bits), direction.map(S::from_bits), log2),
+        );
+        prop_assert_eq!(from_host.map(|(edge, _)| edge), from_soft.map(|(edge, _)| edge), "{:x?}", soft);
+        if let (Some((_, host)), Some((_, soft))) = (from_host, from_soft) {
+            prop_assert_eq!(host.cell(host_t, 0), soft.cell(soft_t, 0), "{:08x} {:x?}", t, soft);
+            prop_assert_eq!(host.cell(host_t, 1), soft.cell(soft_t, 1), "{:08x} {:x?}", t, soft);
+            let exit = host.exit(edge).map(|(axis, t)| (axis, t.to_bits()));
+            prop_assert_eq!(exit, soft.exit(edge).map(|(axis, t)| (axis, t.to_bits())), "{:x?}", soft);
+        }
         let cells = (host.cell(host_t, 0), host.cell(host_t, 2));
         prop_assert_eq!(cells, (soft.cell(soft_t, 0), soft.cell(soft_t, 2)), "{:08x} {:x?}", t, soft);
         for axis in 0..2 {
@@ -101,6 +134,25 @@ proptest! {
     fn f24_at_its_edges((a, b) in (bits(24), prop::sample::select(vec![0x20_0000u32, 0x1f_ffff, 0x5f_0001, 0x3f_0000]))) {
         same::<HostF24, F24>(a, b)?;
         same::<HostF24, F24>(0x20_0000 | a & 0xffff, b)?;
+    }
+    #[test]
+    fn f24_formulas_are_the_soft_ones(
+        numbers in prop::array::uniform8(bits(24)),
+        small in prop::array::uniform8(bits(24)),
+        mask in any::<u8>(),
+        exponent in 0u32..128,
+    ) {
+        formulas::<HostF24, F24>(numbers)?;
+        // Many zeros, and exponents near each other, so that terms cancel or lose digits.
+        let near: [u32; 8] = core::array::from_fn(|i| {
+            if mask >> i & 1 == 1 { small[i] & 0x80_0000 } else { small[i] & 0x83_ffff | exponent << 16 }
+        });
+        formulas::<HostF24, F24>(near)?;
+        formulas::<HostF24, F24>(near.map(|x| x & 0x80_ffff | (0x3e + (x >> 16 & 3)) << 16))?;
+    }
+    #[test]
+    fn f32_formulas_are_the_soft_ones(numbers in prop::array::uniform8(bits(32))) {
+        formulas::<HostF32, F32>(numbers)?;
     }
     /// Rays as jobs have them: points on tiles, often on a texel's edge or a digit beside it, so that what is rounded decides.
     #[test]

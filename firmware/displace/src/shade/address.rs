@@ -39,18 +39,17 @@ pub struct Addresses<F> {
 #[inline]
 pub fn addresses<F: Format>(hit: &Hit<F>, heights: Shape, texture: Shape, normals: Shape) -> Addresses<F> {
     let position = position(hit, heights);
-    Addresses {
-        position,
-        texture: place(position, hit.texel, heights, texture),
-        normal: place(position, hit.texel, heights, normals),
-    }
+    let word = |map: Shape| place(position, hit.texel, heights, map);
+    let place = word(texture);
+    Addresses { position, texture: place, normal: if normals == texture { place } else { word(normals) } }
 }
 
 /// `P + D · t`, clamped to the leaf texel; a NaN becomes its lower edge.
 #[inline]
 pub fn position<F: Format>(hit: &Hit<F>, heights: Shape) -> [F; 2] {
+    let along = F::along(hit.entry, hit.direction, hit.t);
     core::array::from_fn(|axis| {
-        let at = hit.entry[axis].add(hit.direction[axis].mul(hit.t));
+        let at = along[axis];
         let [low, high] =
             [0, 1].map(|edge| F::from_scaled(hit.texel[axis].saturating_add(edge), heights.log2()[axis]));
         if !low.le(at) {
@@ -66,6 +65,9 @@ pub fn position<F: Format>(hit: &Hit<F>, heights: Shape) -> [F; 2] {
 /// The place of a map's texel under a position in the leaf texel.
 #[inline]
 pub fn place<F: Format>(position: [F; 2], texel: [i32; 2], heights: Shape, map: Shape) -> u32 {
+    if map == heights {
+        return map.morton(texel[0] as u32, texel[1] as u32);
+    }
     let [x, y] = core::array::from_fn(|axis| {
         let (leaf, log2) = (heights.log2()[axis], map.log2()[axis]);
         if log2 <= leaf {

@@ -4,9 +4,7 @@
 //! The paper says "using the texture and normal data" and Table 1 which operators there are. Diffuse light on a normal whose
 //! length is divided out needs exactly those: 1 adder, 1 3-input adder, 3 multipliers, 1 divider, 1 square root.
 
-use lucerna_softfloat::Format;
-
-use crate::view::dot;
+use lucerna_softfloat::{F24, Format, FormatCode};
 
 /// The light of a job.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -29,25 +27,38 @@ const COMPONENT: [f32; 256] = {
     table
 };
 
+/// The bits of the same in the narrow format.
+const NARROW: [u32; 256] = {
+    let (mut table, mut byte) = ([0; 256], 0);
+    while byte < 256 {
+        table[byte] = F24::from_f32(COMPONENT[byte]).to_bits();
+        byte += 1;
+    }
+    table
+};
+
+/// The component of a byte, rounded once.
+#[inline]
+fn component<F: Format>(byte: u32) -> F {
+    let byte = (byte & 0xFF) as usize;
+    if matches!(F::CODE, FormatCode::F24) { F::from_bits(NARROW[byte]) } else { F::from_f32(COMPONENT[byte]) }
+}
+
 /// The colour `0x00RRGGBB` of a texture texel `0x00RRGGBB` with a normal texel `0x00ZZYYXX`. A light turned away, a normal of no
 /// length, and numbers that are none, give the ambient light; a channel that is no number is black.
 #[inline]
 pub fn colour<F: Format>(light: &Light<F>, texture: u32, normal: u32) -> u32 {
     let shade = shade(light, normal);
-    let channel = |shift: u32| {
-        let byte = texture >> shift & 0xFF;
-        let twice = F::from_scaled(byte as i32, 0).mul(shade).floor_scaled(1);
-        // To the nearest integer, halves up; clipped.
-        (((twice + 1) >> 1).clamp(0, 0xFF) as u32) << shift
-    };
+    let channel = |shift: u32| u32::from(shade.times_byte((texture >> shift) as u8)) << shift;
     channel(16) | channel(8) | channel(0)
 }
 
 /// `ambient + diffuse · max(0, n · l / |n|)`.
 #[inline]
 pub fn shade<F: Format>(light: &Light<F>, normal: u32) -> F {
-    let n = [0, 8, 16].map(|shift| F::from_f32(COMPONENT[(normal >> shift & 0xFF) as usize]));
-    let cosine = dot(&n, &light.towards).div(dot(&n, &n).sqrt());
+    let n = [0, 8, 16].map(|shift| component(normal >> shift));
+    let [towards, square] = F::dots([&light.towards, &n], &n);
+    let cosine = towards.div(square.sqrt());
     // By the sign and the class of the number: Table 1 has no comparator here.
     let lambert = if F::ZERO.lt(cosine) { cosine } else { F::ZERO };
     light.ambient.add(light.diffuse.mul(lambert))

@@ -1,9 +1,11 @@
 //! Going down (§3.2, P6); in: the level and whether the ray has crossed, out: the next level; cost: wires.
 
+use core::hint::select_unpredictable;
+
 /// The level below `level` at which a ray goes on: `levels_down` lower, if there are so many and it has crossed no node yet.
 #[inline]
-pub const fn level(level: u32, levels_down: u32, crossed: bool) -> u32 {
-    let down = if crossed || level < levels_down { 1 } else { levels_down };
+pub fn level(level: u32, levels_down: u32, crossed: bool) -> u32 {
+    let down = select_unpredictable(crossed | (level < levels_down), 1, levels_down);
     level.saturating_sub(down)
 }
 

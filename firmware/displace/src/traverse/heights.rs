@@ -83,14 +83,20 @@ pub struct Fetched<'a, F> {
 impl<F: Format> Fetched<'_, F> {
     #[inline(always)]
     pub(super) fn depth(&self) -> F {
-        self.depths.of((self.word >> (8 * (self.place % 4))) as u8)
+        self.depths.of(byte(self.word, self.place))
     }
 
     /// The depth of another node, if its height is in the same word.
     #[inline(always)]
     pub(super) fn depth_at(&self, place: u32) -> Option<F> {
-        (place / 4 == self.place / 4).then(|| Fetched { place, ..*self }.depth())
+        (place / 4 == self.place / 4).then(|| self.depths.of(byte(self.word, place)))
     }
+}
+
+/// Of the bytes of a word, the one in which a byte of the pyramid is.
+#[inline(always)]
+const fn byte(word: u32, place: u32) -> u8 {
+    (word >> (8 * (place % 4))) as u8
 }
 
 /// The depth of each height: `(255 - h) / 255`, rounded to the format (P14).

@@ -16,20 +16,18 @@ impl<F: Format> Ray<F> {
     /// The ray as seen from an edge of its entry texel (P24), on a grid of `1 << log2` texels a tile.
     #[inline]
     pub fn track(&self, log2: [u32; 2]) -> Track<F> {
-        // The edge nearer to 0, if it is not on one: that has the entry's sign and no more digits, so the difference is exact.
-        let origin = core::array::from_fn(|axis| {
-            let entry = self.entry[axis];
-            let below = entry.floor_scaled(log2[axis]);
-            below + i32::from(entry.lt(F::ZERO) && F::from_scaled(below, log2[axis]).lt(entry))
-        });
-        let offset =
-            core::array::from_fn(|axis| self.entry[axis].sub(F::from_scaled(origin[axis], log2[axis])));
-        Track::new(origin, offset, self.direction, log2)
+        let Self { entry, direction } = *self;
+        let Some((origin, line)) = F::Line::from_edge(entry, direction, log2) else {
+            return Track::nowhere();
+        };
+        Track {
+            origin,
+            line,
+            ahead: direction.map(|direction| i32::from(F::ZERO.lt(direction))),
+            is_in_reach: true,
+        }
     }
 }
-
-/// Entries this many texels from the origin or further cannot be told apart, so no ray begins there.
-pub const REACH: i32 = 1 << 24;
 
 /// A ray in coordinates that begin at its entry texel, so that what is rounded is the way from the entry and not the place on
 /// the map (P24).
@@ -45,24 +43,15 @@ pub struct Track<F: Format> {
 }
 
 impl<F: Format> Track<F> {
-    /// From `offset` beside a texel edge.
-    #[inline]
-    fn new(origin: [i32; 2], offset: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self {
-        let is_number = |x: &F| Format::eq(*x, *x);
-        Self {
-            origin,
-            line: F::Line::new(offset, direction, log2),
-            ahead: direction.map(|direction| i32::from(F::ZERO.lt(direction))),
-            is_in_reach: origin.iter().all(|index| index.abs() < REACH) && offset.iter().all(is_number),
-        }
-    }
-
     /// No ray.
+    #[cold]
     pub(crate) fn nowhere() -> Self {
-        Self::new([0; 2], [F::ZERO; 2], [F::ZERO; 2], [0; 2])
+        let line = F::Line::new([F::ZERO; 2], [F::ZERO; 2], [0; 2]);
+        Self { origin: [0; 2], line, ahead: [0; 2], is_in_reach: false }
     }
 
-    /// Whether its entry is a number, and within [`REACH`].
+    /// Whether its entry is a number, and less than 2^24 texels from the origin: further out texels cannot be told apart, so no
+    /// ray begins there.
     #[inline]
     pub const fn is_in_reach(&self) -> bool {
         self.is_in_reach

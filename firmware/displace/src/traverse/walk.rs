@@ -5,6 +5,8 @@
 //! the integer itself, so that no rounding can bring the ray back into the node it left (P11). And numbers only say how far the
 //! ray is from the texel in which it entered, since what is between two texels is an integer as well (P24).
 
+use core::hint::select_unpredictable;
+
 use lucerna_softfloat::Format;
 
 use super::ascend::Crossing;
@@ -154,19 +156,20 @@ impl<F: Format> Walk<F> {
         let Terrain { field, policies } = terrain;
         let level = self.level;
         let boundary = [node[0] + track.ahead[0], node[1] + track.ahead[1]];
-        let (axis, exit) = track.exit(boundary.map(|index| index << level))?;
+        let (axis, exit) = track.exit([boundary[0] << level, boundary[1] << level])?;
         if !exit.lt(depth) {
             return None;
         }
         if self.t.lt(exit) {
             self.t = exit;
         }
-        let beyond = (boundary[axis] << level) + track.ahead[axis] - 1;
-        let beside = within(track.index(1 - axis, self.t), node[1 - axis], level);
-        self.leaf = if axis == 0 { [beyond, beside] } else { [beside, beyond] };
+        let (boundary, node_beside) = (on(axis, boundary), on(1 - axis, node));
+        let beyond = (boundary << level) + on(axis, track.ahead) - 1;
+        let beside = within(track.index(1 - axis, self.t), node_beside, level);
+        self.leaf = [on(axis, [beyond, beside]), on(axis, [beside, beyond])];
         self.place = field.leaf(self.leaf);
         self.crossed = true;
-        let crossing = Crossing { node, target, boundary: boundary[axis], stayed: self.stayed };
+        let crossing = Crossing { node, target, boundary, stayed: self.stayed };
         let up = policies.ascend.goes_up(policies.coherent, policies.reach, &crossing)
             & (level < field.shape().root());
         self.stayed = !up;
@@ -175,9 +178,15 @@ impl<F: Format> Walk<F> {
     }
 }
 
+/// One of a pair: which axis it is cannot be predicted. And no index, that would have the pair go through memory.
+#[inline(always)]
+fn on(axis: usize, pair: [i32; 2]) -> i32 {
+    select_unpredictable(axis == 0, pair[0], pair[1])
+}
+
 /// `leaf`, moved into the span of the node on its axis.
 #[inline(always)]
 fn within(leaf: i32, node: i32, level: u32) -> i32 {
     let first = node << level;
-    leaf.clamp(first, first + (1 << level) - 1)
+    leaf.max(first).min(first + ((1 << level) - 1))
 }
