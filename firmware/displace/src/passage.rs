@@ -30,10 +30,16 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         let mut passed =
             if self.read.is_idle() { Passed::Read(from) } else { self.read_on(from, end, outside) };
         while let Passed::Read(idle) = passed
-            && let Some((cycle, fetch)) = self.next_fetch(from, idle, end, outside)
+            && let Some((cycle, mut fetch)) = self.next_fetch(from, idle, end, outside)
         {
-            self.read.begin(fetch);
-            passed = self.read_on(cycle, end, outside);
+            passed = if cycle + 2 <= end
+                && self.read.read_both(&mut fetch, outside.job, outside.memory, outside.counters)
+            {
+                self.hand_on(cycle + 2, end, fetch, outside)
+            } else {
+                self.read.begin(fetch);
+                self.read_on(cycle, end, outside)
+            };
         }
         let reached = match passed {
             Passed::Read(_) => end,
@@ -104,10 +110,19 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
             }
             cycle += 1;
         }
-        let done = cycle;
+        match self.read.take() {
+            Some(fetch) => self.hand_on(cycle, end, fetch, outside),
+            None => Passed::Read(cycle),
+        }
+    }
+
+    /// A hit whose texels are there from cycle `done` on goes to the colour unit.
+    #[inline]
+    fn hand_on(&mut self, done: u64, end: u64, fetch: Fetch, outside: &mut Outside<'_, F>) -> Passed {
         let cycle = done.max(self.colour.next_issue());
         outside.counters.read_stalls += cycle.min(end).saturating_sub(done);
         if cycle >= end {
+            self.read.hold(fetch);
             return Passed::Held(end);
         }
         self.colour_results(cycle + 1, outside);
@@ -115,9 +130,8 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         let result = self.colour.result_of(cycle);
         if self.colour.is_empty() && result < end {
             self.colour.pass(cycle, result);
-            outside.shaded(self.read.done());
-            let _ = self.read.take();
-        } else if let Some(fetch) = self.read.take() {
+            outside.shaded(&fetch);
+        } else {
             let _ = self.colour.issue(cycle, fetch);
         }
         Passed::Read(cycle)

@@ -4,6 +4,7 @@
 //! semi-pipelined unit nothing could overtake a miss. As in the height cache, the line on its way in is forwarded (P17).
 
 use lucerna_fabric::cache::Tags;
+use lucerna_fabric::window::Buffer;
 use lucerna_softfloat::Format;
 
 use crate::counters::Counters;
@@ -93,10 +94,33 @@ impl<const LINES: usize> Read<LINES> {
         Some(self.fetch)
     }
 
-    /// The hit whose texels are both there.
+    /// Has both texels of a hit.
     #[inline]
-    pub(crate) const fn done(&self) -> &Fetch {
-        &self.fetch
+    pub(crate) const fn hold(&mut self, fetch: Fetch) {
+        (self.fetch, self.next) = (fetch, Next::Done);
+    }
+
+    /// Both accesses of a hit in an idle unit, if its lines are there: says so. If not, nothing has changed but what the access that
+    /// finds its line changes again.
+    #[inline]
+    pub(crate) fn read_both<F: Format>(
+        &mut self,
+        fetch: &mut Fetch,
+        job: &Job<F>,
+        memory: &[u32],
+        counters: &mut Counters,
+    ) -> bool {
+        let (texture, normals) = (&job.texture.words, &job.normals.words);
+        let found = self.cache.lookup(texture.address(fetch.texture))
+            && self.cache.lookup(normals.address(fetch.normal));
+        if found {
+            counters.read_busy += 2;
+            counters.texture_accesses += 2;
+            counters.texture_hits += 2;
+            fetch.texture = word(texture, fetch.texture, memory);
+            fetch.normal = word(normals, fetch.normal, memory);
+        }
+        found
     }
 
     /// Takes a hit; its first access is in this cycle.
@@ -162,6 +186,12 @@ impl<const LINES: usize> Read<LINES> {
             }
             counters.texture_hits += 1;
         }
-        Ok(map.words.read::<1>(memory, word, 0).map_or(0, |words| words[0]))
+        Ok(self::word(&map.words, word, memory))
     }
+}
+
+/// A word of a buffer.
+#[inline]
+fn word(buffer: &Buffer, number: u32, memory: &[u32]) -> u32 {
+    buffer.read::<1>(memory, number, 0).map_or(0, |words| words[0])
 }

@@ -6,7 +6,7 @@ use lucerna_softfloat::Format;
 use crate::counters::Counters;
 use crate::job::Job;
 use crate::record::Status;
-use crate::traverse::heights::{Depths, Fetched};
+use crate::traverse::heights::{Depths, Fetched, Field, Pyramid};
 use crate::traverse::ray::{Ray, Track};
 use crate::traverse::walk::{Step, Walk};
 
@@ -43,11 +43,9 @@ pub(crate) struct Slot<F: Format> {
 /// Where heights are.
 #[derive(Clone, Copy)]
 pub(crate) struct Heights<'a, F> {
-    /// The pyramid's words.
-    words: &'a [u32],
-    /// Byte address of the first.
+    pyramid: Pyramid<'a, F>,
+    /// Byte address of the pyramid.
     base: u32,
-    depths: &'a Depths<F>,
 }
 
 impl<'a, F: Format> Heights<'a, F> {
@@ -55,16 +53,22 @@ impl<'a, F: Format> Heights<'a, F> {
     #[inline]
     pub fn of(job: &Job<F>, depths: &'a Depths<F>, memory: &'a [u32]) -> Self {
         let map = &job.map.words;
-        Self { words: map.records::<1>(memory).as_flattened(), base: map.address(0), depths }
-    }
-
-    /// The word with a byte of the pyramid.
-    #[inline(always)]
-    fn at(&self, place: u32) -> Fetched<'a, F> {
-        let word = self.words.get(place as usize / 4).copied().unwrap_or_default();
-        Fetched { place, word, depths: self.depths }
+        let words = map.records::<1>(memory).as_flattened();
+        Self { pyramid: Pyramid { words, depths }, base: map.address(0) }
     }
 }
+
+/// What a slot's next step needs.
+#[derive(Clone, Copy)]
+pub(crate) struct Ahead<F> {
+    /// The byte of the pyramid with the height of the ray's node, or [`NOWHERE`].
+    place: u32,
+    /// The depth of the node's top.
+    depth: F,
+}
+
+/// Beyond the border, where no byte of a pyramid is.
+const NOWHERE: u32 = u32::MAX;
 
 /// What a turn came to.
 #[derive(Clone, Copy)]
@@ -78,27 +82,33 @@ pub(crate) enum Turn {
 }
 
 impl<F: Format> Slot<F> {
+    /// What its next step needs, if it is one.
+    #[inline(always)]
+    pub fn ahead(&self, field: &Field, heights: &Heights<'_, F>) -> Ahead<F> {
+        let place = self.walk.node(field).unwrap_or(NOWHERE);
+        Ahead { place, depth: heights.pyramid.depth(place) }
+    }
+
     /// A turn: a step, if the height for it is there. Steps of which the cache had the height are counted in `looked` only.
     #[inline(always)]
     pub fn turn<const LINES: usize>(
         &mut self,
+        Ahead { place, depth }: Ahead<F>,
         job: &Job<F>,
         heights: &Heights<'_, F>,
         cache: &mut Tags<LINES>,
         looked: &mut u64,
         counters: &mut Counters,
     ) -> Turn {
-        if self.state == State::Walk
-            && let Some(place) = self.walk.node(&job.terrain.field)
-        {
-            let address = heights.base + place;
-            if !cache.lookup(address) {
-                return self.miss(cache.line(address), counters);
-            }
-            *looked += 1;
-            return self.step(job, Some(heights.at(place)), counters);
+        if (self.state != State::Walk) | (place == NOWHERE) {
+            return self.other_turn(job, heights, counters);
         }
-        self.other_turn(job, heights, counters)
+        let address = heights.base + place;
+        if !cache.lookup(address) {
+            return self.miss(cache.line(address), counters);
+        }
+        *looked += 1;
+        self.step(job, Some(Fetched { place, depth, pyramid: heights.pyramid }), counters)
     }
 
     /// The slot waits for a line.
@@ -132,7 +142,8 @@ impl<F: Format> Slot<F> {
                 counters.height_forwards += u64::from(place.is_some());
                 counters.traverse_busy += 1;
                 counters.steps += 1;
-                let fetched = place.map(|place| heights.at(place));
+                let pyramid = heights.pyramid;
+                let fetched = place.map(|place| Fetched { place, depth: pyramid.depth(place), pyramid });
                 return self.step(job, fetched, counters);
             }
         }

@@ -182,13 +182,17 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
         let (mut turned, mut looked) = (0, 0);
         let mut stops = self.stops(held);
         let mut stage2 = if self.entry == 0 { STAGES - 1 } else { self.entry - 1 };
+        let field = &job.terrain.field;
+        let mut entry = self.entry;
+        let mut ahead = self.slots[stage2].ahead(field, &heights);
         let first = loop {
-            let turn = self.slots[stage2].turn(job, &heights, &mut self.cache, &mut looked, counters);
-            let slot = stage2;
-            stage2 = self.entry;
-            self.entry = next(stage2);
+            let (slot, now) = (stage2, ahead);
+            stage2 = entry;
+            entry = next(entry);
+            // The next slot's height is on its way through the host's memory while this slot has its turn.
+            ahead = self.slots[stage2].ahead(field, &heights);
             turned += 1;
-            match turn {
+            match self.slots[slot].turn(now, job, &heights, &mut self.cache, &mut looked, counters) {
                 Turn::On => {}
                 Turn::Ended { hit } => {
                     self.done |= 1 << slot;
@@ -201,10 +205,11 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
                     }
                 }
             }
-            if (turned >= cycles) | (stops >> self.entry & 1 == 1) {
+            if (turned >= cycles) | (stops >> entry & 1 == 1) {
                 break None;
             }
         };
+        self.entry = entry;
         counters.traverse_busy += looked;
         counters.steps += looked;
         counters.height_accesses += looked;

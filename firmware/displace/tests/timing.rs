@@ -6,7 +6,7 @@ use common::{Heights, RayOf, Scene};
 use lucerna_displace::engine::{Displace, Event, Sizes};
 use lucerna_displace::job::{FaultCode, RayFaults};
 use lucerna_displace::record::{Outcome, Status};
-use lucerna_displace::traverse::heights::{Depths, Fetched, Field};
+use lucerna_displace::traverse::heights::{Depths, Fetched, Field, Pyramid};
 use lucerna_displace::traverse::ray::Ray;
 use lucerna_displace::traverse::walk::{Step, Terrain, Walk};
 use lucerna_displace::traverse::{Ascend, Coherent, Policies, Wrap};
@@ -51,6 +51,9 @@ fn plain<F: Format>(
     let terrain = Terrain { field: Field::new(shape, policies.wrap), policies };
     let (depths, mut pyramid) = (Depths::new(), heights.pyramid());
     pyramid.resize(pyramid.len().next_multiple_of(4), 0);
+    let words: Vec<u32> =
+        pyramid.chunks(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap())).collect();
+    let pyramid = Pyramid { words: &words, depths: &depths };
     let trace = |(entry, view): &RayOf| {
         let [x, y, z] = view.map(F::from_f32);
         if !z.lt(F::ZERO) {
@@ -64,11 +67,8 @@ fn plain<F: Format>(
         }
         let mut walk = Walk::new(&track, &terrain);
         while walk.steps < scene.description.watchdog {
-            let fetched = walk.node(&terrain.field).map(|place| {
-                let first = place as usize / 4 * 4;
-                let word = u32::from_le_bytes(pyramid[first..first + 4].try_into().unwrap());
-                Fetched { place, word, depths: &depths }
-            });
+            let fetch = |place| Fetched { place, depth: pyramid.depth(place), pyramid };
+            let fetched = walk.node(&terrain.field).map(fetch);
             if let Step::Hit | Step::CrossHit = walk.step(&track, &terrain, fetched.as_ref()) {
                 let status = if terrain.field.lets_hit(walk.leaf) { Status::Hit } else { Status::Miss };
                 return (status, walk.leaf, walk.t.to_bits(), walk.steps);

@@ -32,6 +32,9 @@ pub trait Line<F>: Copy + core::fmt::Debug + PartialEq {
     /// [`floor_scaled`](Format::floor_scaled).
     fn cell(&self, t: F, finer: u32) -> [i32; 2];
 
+    /// The cell of the grid itself at `t = 0`.
+    fn first(&self) -> [i32; 2];
+
     /// Its index on one axis, 0 or 1, of the grid itself.
     fn index(&self, axis: usize, t: F) -> i32;
 
@@ -63,6 +66,10 @@ impl<F: Format> Line<F> for PlainLine<F> {
     #[inline]
     fn cell(&self, t: F, finer: u32) -> [i32; 2] {
         [0, 1].map(|axis| self.at(axis, t).floor_scaled(u32::from(self.log2[axis]) + finer))
+    }
+    #[inline]
+    fn first(&self) -> [i32; 2] {
+        self.cell(F::ZERO, 0)
     }
     #[inline]
     fn index(&self, axis: usize, t: F) -> i32 {

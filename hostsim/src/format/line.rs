@@ -9,7 +9,7 @@
 use lucerna_softfloat::{Line, PlainLine};
 
 use super::f24::{HostF24, split};
-use super::{FLOOR_LIMIT, power_of_two};
+use super::{FLOOR_LIMIT, floor, power_of_two};
 
 /// Fraction bits of a sum as an integer, in which the distance to the next cell is judged.
 const FRACTION: u32 = 19;
@@ -137,6 +137,12 @@ impl Line<HostF24> for Line24 {
     fn cell(&self, t: HostF24, finer: u32) -> [i32; 2] {
         let [(x, x_certain), (y, y_certain)] = [self.unrounded(0, t), self.unrounded(1, t)];
         if x_certain & y_certain & (finer == 0) { [x, y] } else { self.plain_cell(t, finer) }
+    }
+
+    #[inline(always)]
+    fn first(&self) -> [i32; 2] {
+        // Nothing is added to the point, if it is within reach.
+        if self.reach == 0 { self.plain_cell(HostF24(0.0), 0) } else { self.start.map(floor) }
     }
 
     #[inline(always)]

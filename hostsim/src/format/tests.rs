@@ -69,11 +69,13 @@ fn lines<H: Format, S: Format>(point: [u32; 2], direction: [u32; 2], t: u32) -> 
         );
         prop_assert_eq!(from_host.map(|(edge, _)| edge), from_soft.map(|(edge, _)| edge), "{:x?}", soft);
         if let (Some((_, host)), Some((_, soft))) = (from_host, from_soft) {
+            prop_assert_eq!(host.first(), soft.first(), "{:x?}", soft);
             prop_assert_eq!(host.cell(host_t, 0), soft.cell(soft_t, 0), "{:08x} {:x?}", t, soft);
             prop_assert_eq!(host.cell(host_t, 1), soft.cell(soft_t, 1), "{:08x} {:x?}", t, soft);
             let exit = host.exit(edge).map(|(axis, t)| (axis, t.to_bits()));
             prop_assert_eq!(exit, soft.exit(edge).map(|(axis, t)| (axis, t.to_bits())), "{:x?}", soft);
         }
+        prop_assert_eq!(host.first(), soft.first(), "{:x?}", soft);
         let cells = (host.cell(host_t, 0), host.cell(host_t, 2));
         prop_assert_eq!(cells, (soft.cell(soft_t, 0), soft.cell(soft_t, 2)), "{:08x} {:x?}", t, soft);
         for axis in 0..2 {

@@ -69,34 +69,41 @@ impl Field {
     }
 }
 
-/// Heights that the cache delivered: the word with that of the ray's node, which holds its siblings' too.
+/// A pyramid in memory.
 #[derive(Clone, Copy, Debug)]
-pub struct Fetched<'a, F> {
-    /// The byte of the pyramid with the node's height.
-    pub place: u32,
-    /// Four bytes of the pyramid.
-    pub word: u32,
+pub struct Pyramid<'a, F> {
+    /// Its words.
+    pub words: &'a [u32],
     /// The depth of each height (P14).
     pub depths: &'a Depths<F>,
 }
 
-impl<F: Format> Fetched<'_, F> {
+impl<F: Format> Pyramid<'_, F> {
+    /// The depth of the node whose height is in byte `place`.
     #[inline(always)]
-    pub(super) fn depth(&self) -> F {
-        self.depths.of(byte(self.word, self.place))
-    }
-
-    /// The depth of another node, if its height is in the same word.
-    #[inline(always)]
-    pub(super) fn depth_at(&self, place: u32) -> Option<F> {
-        (place / 4 == self.place / 4).then(|| self.depths.of(byte(self.word, place)))
+    pub fn depth(&self, place: u32) -> F {
+        let word = self.words.get(place as usize / 4).copied().unwrap_or_default();
+        self.depths.of((word >> (8 * (place % 4))) as u8)
     }
 }
 
-/// Of the bytes of a word, the one in which a byte of the pyramid is.
-#[inline(always)]
-const fn byte(word: u32, place: u32) -> u8 {
-    (word >> (8 * (place % 4))) as u8
+/// What the cache delivered: the height of the ray's node, and its siblings', which are in the same word.
+#[derive(Clone, Copy, Debug)]
+pub struct Fetched<'a, F> {
+    /// The byte of the pyramid with the node's height.
+    pub place: u32,
+    /// The depth of the node's top.
+    pub depth: F,
+    /// Where its siblings' are.
+    pub pyramid: Pyramid<'a, F>,
+}
+
+impl<F: Format> Fetched<'_, F> {
+    /// The depth of another node, if its height is in the same word.
+    #[inline(always)]
+    pub(super) fn depth_at(&self, place: u32) -> Option<F> {
+        (place / 4 == self.place / 4).then(|| self.pyramid.depth(place))
+    }
 }
 
 /// The depth of each height: `(255 - h) / 255`, rounded to the format (P14).

@@ -64,6 +64,13 @@ impl<F: Format> Track<F> {
         [self.origin[0] + x, self.origin[1] + y]
     }
 
+    /// The leaf texel in which it begins.
+    #[inline(always)]
+    pub(super) fn first_texel(&self) -> [i32; 2] {
+        let [x, y] = self.line.first();
+        [self.origin[0] + x, self.origin[1] + y]
+    }
+
     /// The texels in which it begins and ends, on a grid that is `1 << finer` times finer.
     pub(super) fn ends(&self, finer: u32) -> [[i32; 2]; 2] {
         [F::ZERO, F::ONE].map(|t| {

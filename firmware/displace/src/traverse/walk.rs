@@ -71,13 +71,16 @@ impl<F: Format> Walk<F> {
     pub fn new(track: &Track<F>, terrain: &Terrain) -> Self {
         let Terrain { field, policies } = terrain;
         let root = field.shape().root();
+        let leaf = track.first_texel();
         let level = if policies.start_level {
-            let [first, last] = track.ends(policies.start_grid);
+            let [first, last] = match policies.start_grid {
+                0 => [leaf, track.texel_at(F::ONE)],
+                finer => track.ends(finer),
+            };
             start::level(first, last, root)
         } else {
             root
         };
-        let leaf = track.texel_at(F::ZERO);
         Self { t: F::ZERO, leaf, place: field.leaf(leaf), level, crossed: false, stayed: false, steps: 0 }
     }
 
@@ -91,7 +94,7 @@ impl<F: Format> Walk<F> {
     #[inline(always)]
     pub fn step(&mut self, track: &Track<F>, terrain: &Terrain, heights: Option<&Fetched<'_, F>>) -> Step {
         self.steps += 1;
-        let depth = heights.map_or(F::ONE, Fetched::depth);
+        let depth = heights.map_or(F::ONE, |fetched| fetched.depth);
         if !self.t.lt(depth) {
             // P9: nothing to test.
             return if self.down(&terrain.policies) { Step::Down } else { Step::Hit };
