@@ -2,8 +2,7 @@
 //!
 //! All parts keep absolute cycle numbers, so each can tell the next cycle in which it may do anything but wait. Here every part
 //! is called in those cycles only, in the order in which a tick calls them; the cycles that it waited for are added to its
-//! stalls when it is called again. The ring turns in every cycle; of an only instance it turns many times in one call, and with
-//! a ray in each slot the other parts are called late, when the ring has to do with them, for all cycles that they missed.
+//! stalls when it is called again. An only instance has a quicker way while rays are in its ring: `alone`.
 
 use core::array;
 
@@ -33,6 +32,7 @@ impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
         let mut agenda = self.agenda();
         let mut event = None;
         while event.is_none() {
+            #[cfg(feature = "shortcut")]
             self.alone(&mut agenda, end);
             if self.outside.now == end {
                 break;

@@ -34,6 +34,7 @@ pub struct Instance<F: Format, const LINES: usize> {
     pub(crate) coming: usize,
     pub(crate) fifo0: Deque<Entrant<F>, MAX_FIFO>,
     /// When rays left FIFO #0 that the switch, being late, does not know of.
+    #[cfg(feature = "shortcut")]
     pub(crate) taken: Deque<u64, MAX_FIFO>,
     pub(crate) slots: Slots<F, LINES>,
     pub(crate) fifo1: Deque<Ended<F>, MAX_FIFO>,
@@ -51,6 +52,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
             view: SemiPipeline::new(VIEW_LIST.pace()),
             coming: 0,
             fifo0: Deque::new(),
+            #[cfg(feature = "shortcut")]
             taken: Deque::new(),
             slots: Slots::new(caches.height),
             fifo1: Deque::new(),
@@ -68,6 +70,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         });
         self.coming = 0;
         self.fifo0.clear();
+        #[cfg(feature = "shortcut")]
         self.taken.clear();
         self.slots.clear();
         self.fifo1.clear();
@@ -142,7 +145,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     }
 
     /// The ray in stage 1 leaves if it has ended: to FIFO #1 if there is room, or to its result.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn leave(&mut self, outside: &mut Outside<'_, F>) {
         let Some(ended) = self.slots.ended(outside.now) else { return };
         if ended.status != Status::Hit {
@@ -155,7 +158,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     }
 
     /// A ray enters stage 1 if that is free; says whether one did.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn enter(&mut self, outside: &Outside<'_, F>) -> bool {
         if self.slots.is_free()
             && let Some(entrant) = self.fifo0.pop_front()
@@ -185,7 +188,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     }
 
     /// The view calculation's results to FIFO #0.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn settle_view(&mut self, outside: &mut Outside<'_, F>) {
         let Some((number, view)) = self.view.take(outside.now) else { return };
         self.coming -= 1;
@@ -223,7 +226,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
 }
 
 /// What the address calculation makes of a hit.
-#[inline]
+#[inline(never)]
 pub(crate) fn fetch<F: Format>(ended: &Ended<F>, job: &Job<F>) -> Fetch {
     let Ray { entry, direction } = ended.ray;
     let hit = Hit { entry, direction, t: ended.t, texel: ended.leaf };

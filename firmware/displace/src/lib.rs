@@ -51,6 +51,7 @@
 //! ```
 #![cfg_attr(not(test), no_std)]
 
+#[cfg(feature = "shortcut")]
 mod alone;
 pub mod counters;
 pub mod engine;
@@ -60,6 +61,7 @@ pub mod job;
 pub mod operators;
 mod outlook;
 pub mod outside;
+#[cfg(feature = "shortcut")]
 mod passage;
 pub mod pyramid;
 pub mod read;

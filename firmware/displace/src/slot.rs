@@ -82,11 +82,13 @@ pub(crate) enum Turn {
 }
 
 impl<F: Format> Slot<F> {
-    /// What its next step needs, if it is one.
+    /// What its next step needs, if it is one. Beyond the border nothing is higher than the bottom.
     #[inline(always)]
     pub fn ahead(&self, field: &Field, heights: &Heights<'_, F>) -> Ahead<F> {
-        let place = self.walk.node(field).unwrap_or(NOWHERE);
-        Ahead { place, depth: heights.pyramid.depth(place) }
+        match self.walk.node(field) {
+            Some(place) => Ahead { place, depth: heights.pyramid.depth(place) },
+            None => Ahead { place: NOWHERE, depth: F::ONE },
+        }
     }
 
     /// A turn: a step, if the height for it is there. Steps of which the cache had the height are counted in `looked` only.
@@ -100,15 +102,16 @@ impl<F: Format> Slot<F> {
         looked: &mut u64,
         counters: &mut Counters,
     ) -> Turn {
-        if (self.state != State::Walk) | (place == NOWHERE) {
-            return self.other_turn(job, heights, counters);
+        if (self.state == State::Walk) & (place != NOWHERE) {
+            let address = heights.base + place;
+            if !cache.lookup(address) {
+                return self.miss(cache.line(address), counters);
+            }
+            *looked += 1;
+        } else if !self.other_turn(place, job, counters) {
+            return Turn::On;
         }
-        let address = heights.base + place;
-        if !cache.lookup(address) {
-            return self.miss(cache.line(address), counters);
-        }
-        *looked += 1;
-        self.step(job, Some(Fetched { place, depth, pyramid: heights.pyramid }), counters)
+        self.step(job, &Fetched { place, depth, pyramid: heights.pyramid }, counters)
     }
 
     /// The slot waits for a line.
@@ -121,9 +124,9 @@ impl<F: Format> Slot<F> {
         Turn::Missed { line }
     }
 
-    /// A turn that is no step, or one whose height did not come from the cache.
+    /// A turn that is no step, or one whose height did not come from the cache: says whether it is a step.
     #[inline(never)]
-    fn other_turn(&mut self, job: &Job<F>, heights: &Heights<'_, F>, counters: &mut Counters) -> Turn {
+    fn other_turn(&mut self, place: u32, job: &Job<F>, counters: &mut Counters) -> bool {
         match self.state {
             State::Empty => counters.traverse_bubbles += 1,
             State::Start => {
@@ -138,23 +141,20 @@ impl<F: Format> Slot<F> {
             State::Ended(_) => counters.traverse_stalls += 1,
             // The line has come, or the node is beyond the border.
             State::Walk | State::Served => {
-                let place = self.walk.node(&job.terrain.field);
-                counters.height_forwards += u64::from(place.is_some());
+                counters.height_forwards += u64::from(place != NOWHERE);
                 counters.traverse_busy += 1;
                 counters.steps += 1;
-                let pyramid = heights.pyramid;
-                let fetched = place.map(|place| Fetched { place, depth: pyramid.depth(place), pyramid });
-                return self.step(job, fetched, counters);
+                return true;
             }
         }
-        Turn::On
+        false
     }
 
     /// A step, with the heights that the cache delivered; its turn and step are counted elsewhere.
     #[inline(always)]
-    fn step(&mut self, job: &Job<F>, fetched: Option<Fetched<'_, F>>, counters: &mut Counters) -> Turn {
+    fn step(&mut self, job: &Job<F>, fetched: &Fetched<'_, F>, counters: &mut Counters) -> Turn {
         self.state = State::Walk;
-        match self.walk.step(&self.track, &job.terrain, fetched.as_ref()) {
+        match self.walk.step(&self.track, &job.terrain, fetched) {
             Step::Down => counters.level_downs += 1,
             Step::Cross { up } => {
                 counters.crossings += 1;

@@ -31,7 +31,7 @@ impl Source {
     }
 
     /// The next ray's number, and what the view calculation makes of it.
-    #[inline]
+    #[inline(never)]
     pub fn take<F: Format>(&mut self, job: &Job<F>, memory: &[u32]) -> Option<(u32, View<F>)> {
         if self.is_dry() {
             return None;

@@ -68,8 +68,9 @@ fn plain<F: Format>(
         let mut walk = Walk::new(&track, &terrain);
         while walk.steps < scene.description.watchdog {
             let fetch = |place| Fetched { place, depth: pyramid.depth(place), pyramid };
-            let fetched = walk.node(&terrain.field).map(fetch);
-            if let Step::Hit | Step::CrossHit = walk.step(&track, &terrain, fetched.as_ref()) {
+            let beyond = Fetched { place: u32::MAX, depth: F::ONE, pyramid };
+            let fetched = walk.node(&terrain.field).map_or(beyond, fetch);
+            if let Step::Hit | Step::CrossHit = walk.step(&track, &terrain, &fetched) {
                 let status = if terrain.field.lets_hit(walk.leaf) { Status::Hit } else { Status::Miss };
                 return (status, walk.leaf, walk.t.to_bits(), walk.steps);
             }

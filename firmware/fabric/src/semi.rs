@@ -262,5 +262,46 @@ mod tests {
                 prop_assert!(unit.flight.len() <= pace.depth());
             }
         }
+
+        /// An operation followed to its end before the next is looked at, against the same row of registers.
+        #[test]
+        fn one_after_the_other_is_side_by_side(
+            interval in 1u32..6,
+            less in 0u32..6,
+            gaps in prop::collection::vec((0u64..8, 0u64..14), 1..60),
+        ) {
+            let pace = Pace { interval, latency: (2 * interval).saturating_sub(less).max(1) };
+            let mut unit: SemiPipeline<(), 2> = SemiPipeline::new(pace);
+            let (mut offer, mut wanted) = (0, 0);
+            let mut expected = Vec::new();
+            for (gap, busy) in &gaps {
+                offer += gap;
+                let issue = unit.offered(offer);
+                let taken = unit.result_of(issue).max(wanted);
+                unit.pass(issue, taken);
+                wanted = taken + 1 + busy;
+                expected.push((offer, issue, taken));
+            }
+            let stages = std::vec![None; pace.latency as usize];
+            let mut model = Stages { stages, since_issue: u32::MAX, interval };
+            let (mut issued, mut taken, mut wanted) = (0, 0, 0);
+            for now in 0u64.. {
+                let put = expected.get(issued).is_some_and(|(offer, ..)| *offer <= now);
+                let (result, is_issued) = model.tick(now >= wanted, put.then_some(now));
+                if result.is_some() {
+                    prop_assert_eq!(expected[taken].2, now, "result {}", taken);
+                    wanted = now + 1 + gaps[taken].1;
+                    taken += 1;
+                }
+                if is_issued {
+                    prop_assert_eq!(expected[issued].1, now, "issue {}", issued);
+                    issued += 1;
+                }
+                if taken == gaps.len() {
+                    break;
+                }
+                prop_assert!(now < 10_000, "stuck");
+            }
+        }
     }
 }

@@ -46,7 +46,7 @@ fn component<F: Format>(byte: u32) -> F {
 
 /// The colour `0x00RRGGBB` of a texture texel `0x00RRGGBB` with a normal texel `0x00ZZYYXX`. A light turned away, a normal of no
 /// length, and numbers that are none, give the ambient light; a channel that is no number is black.
-#[inline]
+#[inline(never)]
 pub fn colour<F: Format>(light: &Light<F>, texture: u32, normal: u32) -> u32 {
     let shade = shade(light, normal);
     let channel = |shift: u32| u32::from(shade.times_byte((texture >> shift) as u8)) << shift;

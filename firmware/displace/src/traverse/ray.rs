@@ -44,7 +44,7 @@ pub struct Track<F: Format> {
 
 impl<F: Format> Track<F> {
     /// No ray.
-    #[cold]
+    #[inline]
     pub(crate) fn nowhere() -> Self {
         let line = F::Line::new([F::ZERO; 2], [F::ZERO; 2], [0; 2]);
         Self { origin: [0; 2], line, ahead: [0; 2], is_in_reach: false }

@@ -90,11 +90,11 @@ impl<F: Format> Walk<F> {
         field.node(self.leaf, self.place, self.level)
     }
 
-    /// One step. Without heights the node is beyond the border, where nothing is higher than the bottom.
+    /// One step.
     #[inline(always)]
-    pub fn step(&mut self, track: &Track<F>, terrain: &Terrain, heights: Option<&Fetched<'_, F>>) -> Step {
+    pub fn step(&mut self, track: &Track<F>, terrain: &Terrain, fetched: &Fetched<'_, F>) -> Step {
         self.steps += 1;
-        let depth = heights.map_or(F::ONE, |fetched| fetched.depth);
+        let depth = fetched.depth;
         if !self.t.lt(depth) {
             // P9: nothing to test.
             return if self.down(&terrain.policies) { Step::Down } else { Step::Hit };
@@ -106,7 +106,7 @@ impl<F: Format> Walk<F> {
         if node != target
             && let Some(up) = self.cross(track, terrain, depth, node, target)
         {
-            return self.look_around(terrain, heights, up);
+            return self.look_around(terrain, fetched, up);
         }
         self.t = depth;
         self.leaf = if node == target {
@@ -133,12 +133,11 @@ impl<F: Format> Walk<F> {
 
     /// What comes of a crossing: the end of the step, unless the entered node's height is at hand and the ray below it (P22).
     #[inline(always)]
-    fn look_around(&mut self, terrain: &Terrain, heights: Option<&Fetched<'_, F>>, up: bool) -> Step {
+    fn look_around(&mut self, terrain: &Terrain, fetched: &Fetched<'_, F>, up: bool) -> Step {
         if terrain.policies.siblings
             && !up
-            && let Some(heights) = heights
             && let Some(place) = self.node(&terrain.field)
-            && let Some(depth) = heights.depth_at(place)
+            && let Some(depth) = fetched.depth_at(place)
             && !self.t.lt(depth)
         {
             return if self.down(&terrain.policies) { Step::CrossDown } else { Step::CrossHit };
