@@ -1,8 +1,8 @@
 //! Number formats that the host computes for the device; in: the same bits as the soft formats, out: the same bits; cost: one
-//! host operation, and for F24 one rounding.
+//! host operation, and for F24 its rounding, where that can make a difference.
 //!
 //! [`HostF32`] is the host's own f32. [`HostF24`] computes in f64 and rounds once to 1-7-16, which is exact because
-//! 53 >= 2·17 + 2. Both are chosen for speed only, and tests hold them against the soft formats. [`HostF64`] is no device's:
+//! 53 >= 2·17 + 2; its lines do without most roundings. Both are chosen for speed only, and tests hold them against the soft formats. [`HostF64`] is no device's:
 //! it tells what a job would come to if arithmetic did not matter.
 
 use lucerna_softfloat::{F32, Format, FormatCode, PlainLine};

@@ -12,7 +12,8 @@ use crate::operators::ADDRESS;
 use crate::outside::{Cache, Outside};
 use crate::read::Fetch;
 
-// So a hit can be issued after the one before it was read, though that was later: the unit remembers one hold.
+// So a hit can be issued after the one before it was read, though that was later: the unit remembers one hold. The results of view
+// and colour calculation are never held.
 const _: () = assert!(ADDRESS.latency() <= 2 * ADDRESS.interval());
 
 /// How far a hit came.
@@ -69,7 +70,7 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
         let ready = self.address.result_of(issue);
         let cycle = idle.max(ready);
         if cycle >= end {
-            let _ = self.address.issue(issue, fetch);
+            let _ = self.address.issue_late(issue, fetch);
             return None;
         }
         self.address.pass(issue, cycle);
@@ -150,10 +151,10 @@ impl<F: Format, const LINES: usize> Instance<F, LINES> {
     /// Hits behind one that is still in the read unit.
     #[inline]
     fn fill_address(&mut self, from: u64, end: u64, outside: &mut Outside<'_, F>) {
-        while let Some(issue) = self.next_issue(from, end).filter(|issue| self.address.can_issue(*issue))
+        while let Some(issue) = self.next_issue(from, end).filter(|issue| self.address.can_issue_late(*issue))
             && let Some(fetch) = self.next_hit(outside)
         {
-            let _ = self.address.issue(issue, fetch);
+            let _ = self.address.issue_late(issue, fetch);
         }
         if !self.read.is_idle()
             && let Some(ready) = self.address.next_event()

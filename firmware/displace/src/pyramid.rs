@@ -96,12 +96,6 @@ impl Order {
         // Only the longer axis has bits above the shared ones.
         interleaved(x & self.both, y & self.both) | ((x | y) & !self.both) << self.shared
     }
-
-    /// Whether a texel is on the map itself, not on a repetition.
-    #[inline]
-    pub const fn holds(&self, x: u32, y: u32) -> bool {
-        x <= self.wrap[0] && y <= self.wrap[1]
-    }
 }
 
 /// The low 16 bits of both, those of `x` in the even places.

@@ -95,15 +95,17 @@ impl<const LINES: usize> Read<LINES> {
     }
 
     /// Has both texels of a hit.
+    #[cfg(feature = "shortcut")]
     #[inline]
-    pub const fn hold(&mut self, fetch: Fetch) {
+    pub(crate) const fn hold(&mut self, fetch: Fetch) {
         (self.fetch, self.next) = (fetch, Next::Done);
     }
 
     /// Both accesses of a hit in an idle unit, if its lines are there: says so. If not, nothing has changed but what the access that
     /// finds its line changes again.
+    #[cfg(feature = "shortcut")]
     #[inline]
-    pub fn read_both<F: Format>(
+    pub(crate) fn read_both<F: Format>(
         &mut self,
         fetch: &mut Fetch,
         job: &Job<F>,

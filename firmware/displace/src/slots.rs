@@ -78,7 +78,7 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
     /// An empty ring.
     pub fn new(cache: Tags<LINES>) -> Self {
         let ray = Ray { entry: [F::ZERO; 2], direction: [F::ZERO; 2] };
-        let (track, walk) = (Track::nowhere(), Walk::NOWHERE);
+        let (track, walk) = (Track::NOWHERE, Walk::NOWHERE);
         let empty = Slot { state: State::Empty, number: 0, start_level: 0, ray, track, walk };
         Self { slots: [empty; STAGES], entry: 0, done: ALL, hits: 0, occupied: 0, cache }
     }
@@ -190,7 +190,9 @@ impl<F: Format, const LINES: usize> Slots<F, LINES> {
             stage2 = entry;
             entry = next(entry);
             // The next slot's height is on its way through the host's memory while this slot has its turn.
-            ahead = self.slots[stage2].ahead(field, &heights);
+            if cycles > 1 {
+                ahead = self.slots[stage2].ahead(field, &heights);
+            }
             turned += 1;
             match self.slots[slot].turn(now, job, &heights, &mut self.cache, &mut looked, counters) {
                 Turn::On => {}

@@ -2,15 +2,15 @@
 
 mod common;
 
+use common::any::{geometry, heights, policies};
 use common::{Heights, RayOf, Scene};
 use lucerna_displace::engine::{Displace, Event, Sizes};
 use lucerna_displace::job::{FaultCode, RayFaults};
-use lucerna_displace::record::{Outcome, Status};
+use lucerna_displace::record::{Outcome, RESULT_WORDS, Status};
+use lucerna_displace::traverse::Policies;
 use lucerna_displace::traverse::heights::{Depths, Fetched, Field, Pyramid};
 use lucerna_displace::traverse::ray::Ray;
 use lucerna_displace::traverse::walk::{Step, Terrain, Walk};
-use lucerna_displace::traverse::{Ascend, Coherent, Policies, Wrap};
-use lucerna_fabric::cache::Geometry;
 use lucerna_softfloat::{F24, F32, Format};
 use proptest::prelude::*;
 
@@ -107,7 +107,8 @@ fn check<F: Format>(
         return Ok(());
     }
     for (ray, (status, texel, t, steps)) in plain(&scene, heights, rays).into_iter().enumerate() {
-        let words = scene.result(&memory, ray);
+        let first = scene.description.results as usize / 4 + ray * RESULT_WORDS as usize;
+        let words = &memory[first..first + RESULT_WORDS as usize];
         prop_assert_eq!(words[3] >> 24, status as u32, "ray {}", ray);
         prop_assert_eq!([words[0] as i32, words[1] as i32], texel, "ray {}", ray);
         prop_assert_eq!((words[2], words[3] & 0xFFFF), (t, steps), "ray {}", ray);
@@ -125,14 +126,6 @@ fn check<F: Format>(
     Ok(())
 }
 
-fn geometry() -> impl Strategy<Value = Geometry> {
-    (0u32..3, 0u32..3, 2u32..7).prop_map(|(sets, ways, line)| Geometry {
-        bytes: 1 << (sets + ways + line),
-        ways: 1 << ways,
-        line_bytes: 1 << line,
-    })
-}
-
 fn sizes() -> impl Strategy<Value = Sizes> {
     // An only instance has a way of its own.
     (prop_oneof![Just(1u32), 2u32..=4], geometry(), geometry(), 1u32..20, 1u32..20, 1u32..60, 1u32..17)
@@ -144,42 +137,6 @@ fn sizes() -> impl Strategy<Value = Sizes> {
             fifo1,
             port: lucerna_displace::engine::PortSizes { latency, bytes_per_cycle },
         })
-}
-
-fn policies() -> impl Strategy<Value = Policies> {
-    let ascend =
-        prop::sample::select(vec![Ascend::Never, Ascend::Parity, Ascend::Selective, Ascend::Coherent]);
-    let coherent = prop::sample::select(vec![Coherent::Toggle, Coherent::Consecutive, Coherent::Parity]);
-    let wrap = prop::sample::select(vec![Wrap::Repeat, Wrap::Border]);
-    (wrap, any::<bool>(), 0u32..4, 1u32..5, ascend, coherent, 1u32..4, any::<bool>()).prop_map(
-        |(wrap, start_level, start_grid, levels_down, ascend, coherent, reach, siblings)| Policies {
-            wrap,
-            start_level,
-            start_grid,
-            levels_down,
-            ascend,
-            coherent,
-            reach,
-            siblings,
-        },
-    )
-}
-
-fn heights() -> impl Strategy<Value = Heights> {
-    (0u32..6, 0u32..6, any::<u32>(), 0u32..4).prop_map(|(w, h, seed, kind)| {
-        Heights::new([w, h], |x, y| {
-            let noise = (x.wrapping_mul(0x85EB_CA6B) ^ y.wrapping_mul(0xC2B2_AE35) ^ seed)
-                .wrapping_mul(0x27D4_EB2F)
-                .rotate_left(13)
-                .wrapping_mul(0x1656_67B1);
-            match kind {
-                0 => (noise >> 24) as u8,
-                1 => 255 * u8::from(noise >> 29 == 0),
-                2 => (x * 8 + y * 5) as u8,
-                _ => (seed >> 24) as u8,
-            }
-        })
-    })
 }
 
 fn rays() -> impl Strategy<Value = Vec<RayOf>> {

@@ -71,7 +71,7 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
     /// Whether it takes an operation in this cycle.
     #[inline]
     pub fn can_issue(&self, now: u64) -> bool {
-        self.own(now) >= self.free && self.ready(now).is_none() && !self.flight.is_full()
+        now >= self.free + self.held && self.ready(now).is_none() && !self.flight.is_full()
     }
 
     /// Issues an operation, whose result is known at once and carried along.
@@ -83,7 +83,11 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
         if !self.can_issue(now) {
             return Err(operation);
         }
-        let own = self.own(now);
+        self.put(now - self.held, operation)
+    }
+
+    #[inline]
+    fn put(&mut self, own: u64, operation: T) -> Result<(), T> {
         self.free = own + u64::from(self.pace.interval);
         self.flight
             .push_back((own + u64::from(self.pace.latency), operation))
@@ -115,7 +119,7 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
         }
     }
 
-    /// The cycle of its own clock, not before that of the last issue.
+    /// The cycle of its own clock in cycle `now`, which is not before the last issue.
     #[inline]
     fn own(&self, now: u64) -> u64 {
         let before = now.saturating_sub(self.held_before);
@@ -124,12 +128,31 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
 
     /// The first cycle from `from` on in which it takes an operation, if no result is held but those that were taken.
     ///
-    /// A caller that is behind may ask for a cycle before that of the last [`take`](Self::take) or [`pass`](Self::pass), and issue in it, but not before the last issue, and only
-    /// in a unit whose latency is at most two intervals: it remembers one hold.
+    /// A caller that is behind may ask for a cycle before that of the last [`take`](Self::take) or [`pass`](Self::pass), but not
+    /// before the last issue, and only of a unit whose results are never held, or whose latency is at most two intervals: it
+    /// remembers one hold.
     #[inline]
     pub fn offered(&self, from: u64) -> u64 {
         let own = self.own(from).max(self.free);
         own + if own < self.stop { self.held_before } else { self.held }
+    }
+
+    /// Issues an operation in such a cycle.
+    ///
+    /// # Errors
+    /// The operation, when a result is held in this cycle, or the unit is full.
+    #[inline]
+    pub fn issue_late(&mut self, now: u64, operation: T) -> Result<(), T> {
+        if !self.can_issue_late(now) {
+            return Err(operation);
+        }
+        self.put(self.own(now), operation)
+    }
+
+    /// Whether it takes an operation in such a cycle.
+    #[inline]
+    pub fn can_issue_late(&self, now: u64) -> bool {
+        self.own(now) >= self.free && self.ready(now).is_none() && !self.flight.is_full()
     }
 
     /// When the result of an operation that is issued in cycle `issue`, as [`offered`](Self::offered), is ready.
@@ -138,7 +161,7 @@ impl<T, const DEPTH: usize> SemiPipeline<T, DEPTH> {
         self.own(issue) + u64::from(self.pace.latency) + self.held
     }
 
-    /// An operation goes through a unit that is empty: it is issued in cycle `issue`, as [`offered`](Self::offered), and its
+    /// An operation goes through a unit whose queue is empty: it is issued in cycle `issue`, as [`offered`](Self::offered), and its
     /// result taken in cycle `taken`, not before it is ready. Spares the queue.
     #[inline]
     pub fn pass(&mut self, issue: u64, taken: u64) {

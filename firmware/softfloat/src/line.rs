@@ -6,6 +6,9 @@ use crate::Format;
 /// A line `point + direction · t` on a grid of `1 << log2` cells a unit, as far as a format can follow it: every operation is
 /// rounded. What a line is asked for many times an implementation may work out once.
 pub trait Line<F>: Copy + core::fmt::Debug + PartialEq {
+    /// A line that begins at 0 and goes nowhere.
+    const NOWHERE: Self;
+
     /// The line; `log2` of either axis is at most 31.
     fn new(point: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self;
 
@@ -59,6 +62,8 @@ impl<F: Format> PlainLine<F> {
 }
 
 impl<F: Format> Line<F> for PlainLine<F> {
+    const NOWHERE: Self = Self { point: [F::ZERO; 2], direction: [F::ZERO; 2], log2: [0; 2] };
+
     #[inline]
     fn new(point: [F; 2], direction: [F; 2], log2: [u32; 2]) -> Self {
         Self { point, direction, log2: log2.map(|log2| log2 as u8) }

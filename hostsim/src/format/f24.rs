@@ -58,7 +58,8 @@ fn beyond(x: f64) -> HostF24 {
     HostF24(if x.is_nan() { f64::NAN } else { f64::INFINITY.copysign(x) })
 }
 
-/// A finite f64 rounded to 17 bits, ties to even (Veltkamp's splitting): the nearest F24 value if that is a normal number. A tie has 18 bits, so 2^36 times it is even in the last bit of the sum, and
+/// A finite f64 rounded to 17 bits, ties to even (Veltkamp's splitting): the nearest F24 value if that is a normal number. A
+/// tie has 18 bits, so 2^36 times it is even in the last bit of the sum, and
 /// goes to even as well. Zero keeps its sign.
 ///
 /// A sum of F24 numbers is one if it is below 2^-62, as all of them are multiples of the least: so this rounds every sum that

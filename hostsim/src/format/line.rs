@@ -3,7 +3,7 @@
 //!
 //! Point and direction are kept in cells of the grid, which changes their exponents only. A cell is the floor of a sum that
 //! is not rounded to F24, unless this is so near an edge that rounding could have taken it across. And quotients are products with
-//! a reciprocal: the quotient of two 17-bit numbers is never nearer than 2^-34 of itself to the middle between two 17-bit
+//! a reciprocal: the quotient of two 17-bit numbers is never nearer than 2^-35 of itself to the middle between two 17-bit
 //! numbers, and the product is off by 2^-52 at most, so both are rounded to the same number.
 
 use lucerna_softfloat::{Line, PlainLine};
@@ -116,6 +116,9 @@ impl Line24 {
 }
 
 impl Line<HostF24> for Line24 {
+    const NOWHERE: Self =
+        Self { start: [0.0; 2], way: [0.0; 2], pace: [0.0; 2], doubt: [ALL; 2], reach: 0, log2: [0; 2] };
+
     #[inline]
     fn new(point: [HostF24; 2], direction: [HostF24; 2], log2: [u32; 2]) -> Self {
         Self::of(scaled(point, log2), scaled(direction, log2), log2)

@@ -49,12 +49,6 @@ impl Field {
         Some(offset + (place >> bits))
     }
 
-    /// The byte of the pyramid with the height of the node in which `leaf` lies; `None` beyond the border.
-    #[inline]
-    pub fn place(&self, leaf: [i32; 2], level: u32) -> Option<u32> {
-        self.node(leaf, self.leaf(leaf), level)
-    }
-
     /// Whether the node in which `leaf` lies is on the map itself, not on a repetition.
     #[inline]
     fn holds(&self, leaf: [i32; 2], level: u32) -> bool {
@@ -145,11 +139,12 @@ mod tests {
             for level in 0..=shape.root() {
                 let (order, offset) = (Order::of(shape.level(level)), shape.level_offset(level));
                 for (x, y) in (-40..40).flat_map(|y| (-40..40).map(move |x| (x, y))) {
-                    let node = [(x >> level) as u32, (y >> level) as u32];
+                    let (node, place) = ([(x >> level) as u32, (y >> level) as u32], repeat.leaf([x, y]));
                     let expected = offset + order.place(node[0], node[1]);
-                    assert_eq!(repeat.place([x, y], level), Some(expected), "{x} {y} {level}");
-                    let held = order.holds(node[0], node[1]).then_some(expected);
-                    assert_eq!(border.place([x, y], level), held, "{x} {y} {level}");
+                    assert_eq!(repeat.node([x, y], place, level), Some(expected), "{x} {y} {level}");
+                    let [w, h] = shape.level(level).log2();
+                    let held = (node[0] < 1 << w && node[1] < 1 << h).then_some(expected);
+                    assert_eq!(border.node([x, y], place, level), held, "{x} {y} {level}");
                 }
             }
         }

@@ -18,7 +18,7 @@ impl<F: Format> Ray<F> {
     pub fn track(&self, log2: [u32; 2]) -> Track<F> {
         let Self { entry, direction } = *self;
         let Some((origin, line)) = F::Line::from_edge(entry, direction, log2) else {
-            return Track::nowhere();
+            return Track::NOWHERE;
         };
         Track {
             origin,
@@ -44,11 +44,8 @@ pub struct Track<F: Format> {
 
 impl<F: Format> Track<F> {
     /// No ray.
-    #[inline]
-    pub(crate) fn nowhere() -> Self {
-        let line = F::Line::new([F::ZERO; 2], [F::ZERO; 2], [0; 2]);
-        Self { origin: [0; 2], line, ahead: [0; 2], is_in_reach: false }
-    }
+    pub(crate) const NOWHERE: Self =
+        Self { origin: [0; 2], line: F::Line::NOWHERE, ahead: [0; 2], is_in_reach: false };
 
     /// Whether its entry is a number, and less than 2^24 texels from the origin: further out texels cannot be told apart, so no
     /// ray begins there.

@@ -1,5 +1,7 @@
 //! A device memory with a map, rays and room for results, and the job that is about them.
 
+pub mod any;
+
 use lucerna_displace::job::{Description, Fault, Job, MAP_ALIGNMENT, MapDescription, RayFaults, Source};
 use lucerna_displace::pyramid::Shape;
 use lucerna_displace::record::RESULT_WORDS;
@@ -57,7 +59,6 @@ pub type RayOf = ([f32; 2], [f32; 3]);
 pub struct Scene<F> {
     pub memory: Vec<u32>,
     pub description: Description<F>,
-    pub results: usize,
 }
 
 impl<F: Format> Scene<F> {
@@ -102,15 +103,11 @@ impl<F: Format> Scene<F> {
             diffuse: F::from_f32(0.75),
             background: 0x0012_3456,
         };
-        Self { memory, description, results: results as usize / 4 }
+        Self { memory, description }
     }
 
     pub fn job(&self) -> Result<Job<F>, Fault> {
         let bytes = self.memory.len() as u32 * 4;
         Job::new(&Windows::new([Window { base: 0, limit: bytes }], bytes), &self.description)
-    }
-
-    pub fn result<'m>(&self, memory: &'m [u32], ray: usize) -> &'m [u32] {
-        &memory[self.results + ray * RESULT_WORDS as usize..][..RESULT_WORDS as usize]
     }
 }
