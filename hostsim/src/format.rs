@@ -2,14 +2,32 @@
 //! host operation, and for F24 its rounding, where that can make a difference.
 //!
 //! [`HostF32`] is the host's own f32. [`HostF24`] computes in f64 and rounds once to 1-7-16, which is exact because
-//! 53 >= 2·17 + 2; its lines do without most roundings. Both are chosen for speed only, and tests hold them against the soft formats. [`HostF64`] is no device's:
-//! it tells what a job would come to if arithmetic did not matter.
+//! 53 >= 2·17 + 2; its lines do without most roundings. Both are chosen for speed only, and tests hold them against the soft
+//! formats. [`HostF64`] is no device's: it tells what a job would come to if arithmetic did not matter.
 
 use lucerna_softfloat::{F32, Format, FormatCode, PlainLine};
 
 pub use f24::HostF24;
 
-/// The operations of [`Format`] on a host number in `self.0`.
+/// The comparisons of [`Format`] on a host number in `self.0`.
+macro_rules! host_comparisons {
+    () => {
+        #[inline(always)]
+        fn lt(self, other: Self) -> bool {
+            self.0 < other.0
+        }
+        #[inline(always)]
+        fn le(self, other: Self) -> bool {
+            self.0 <= other.0
+        }
+        #[inline(always)]
+        fn eq(self, other: Self) -> bool {
+            self.0 == other.0
+        }
+    };
+}
+
+/// All its operations, when no result has to be rounded.
 macro_rules! host_arithmetic {
     () => {
         #[inline(always)]
@@ -36,18 +54,7 @@ macro_rules! host_arithmetic {
         fn sqrt(self) -> Self {
             Self(self.0.sqrt())
         }
-        #[inline(always)]
-        fn lt(self, other: Self) -> bool {
-            self.0 < other.0
-        }
-        #[inline(always)]
-        fn le(self, other: Self) -> bool {
-            self.0 <= other.0
-        }
-        #[inline(always)]
-        fn eq(self, other: Self) -> bool {
-            self.0 == other.0
-        }
+        host_comparisons!();
     };
 }
 

@@ -19,7 +19,7 @@ use crate::traverse::ray::Ray;
 use crate::view::View;
 
 impl<F: Format, const LINES: usize> Parts<'_, F, LINES> {
-    /// Cycles before `end`, as long as the ring of an only instance has more than one ray.
+    /// Cycles before `end`, as long as the ring of an only instance has rays, and not its last is about to leave.
     pub(crate) fn alone(&mut self, agenda: &mut Agenda, end: u64) {
         // A fault of a ray that is not traversed ends the job in its cycle.
         if self.instances.len() != 1 || self.outside.job.ray_faults == RayFaults::Stop {

@@ -237,7 +237,7 @@ pub(crate) fn fetch<F: Format>(ended: &Ended<F>, job: &Job<F>) -> Fetch {
 }
 
 /// The outcome of a ray without position and colour.
-pub(crate) fn unshaded<F: Format>(ended: &Ended<F>) -> Outcome<F> {
+fn unshaded<F: Format>(ended: &Ended<F>) -> Outcome<F> {
     Outcome {
         status: ended.status,
         texel: ended.leaf,

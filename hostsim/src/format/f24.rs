@@ -59,8 +59,7 @@ fn beyond(x: f64) -> HostF24 {
 }
 
 /// A finite f64 rounded to 17 bits, ties to even (Veltkamp's splitting): the nearest F24 value if that is a normal number. A
-/// tie has 18 bits, so 2^36 times it is even in the last bit of the sum, and
-/// goes to even as well. Zero keeps its sign.
+/// tie has 18 bits, so 2^36 times it is even in the last bit of the sum, and goes to even as well. Zero keeps its sign.
 ///
 /// A sum of F24 numbers is one if it is below 2^-62, as all of them are multiples of the least: so this rounds every sum that
 /// does not overflow.
@@ -181,18 +180,7 @@ impl Format for HostF24 {
         // Far from overflow, and from the least normal number.
         if root < OVERFLOW { Self(split(root)) } else { beyond(root) }
     }
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self.0 < other.0
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self.0 <= other.0
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> bool {
-        self.0 == other.0
-    }
+    host_comparisons!();
     #[inline(always)]
     fn floor_scaled(self, log2: u32) -> i32 {
         floor(self.0 * power_of_two(log2 as i32))

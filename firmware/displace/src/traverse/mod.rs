@@ -1,8 +1,8 @@
 //! The traversal of the pyramid (§3); in: a ray and the heights it asks for, out: the leaf texel it hits; cost: one step a height.
 //!
 //! [`walk`] is the mechanics that every algorithm shares: where a ray is, and whether it crosses into the neighbour node or
-//! comes down on the node's top; [`ray`] and [`heights`] are what it asks. Which level it goes on at is policy, one a file: [`start`], [`descend`], [`ascend`].
-//! No policy can change the texel that is hit, only the number of steps.
+//! comes down on the node's top; [`ray`] and [`heights`] are what it asks. Which level it goes on at is policy, one a file:
+//! [`start`], [`descend`], [`ascend`]. No policy can change the texel that is hit, only the number of steps.
 
 pub mod ascend;
 pub mod descend;
